@@ -133,7 +133,7 @@ def rendered(assets: Path, template: str, **values: Any) -> str:
     """Page of a template in the folder `assets`, which may extend ``base.html.j2`` and import ``words.html.j2``.
 
     In a template ``{{ inlined("page.css") }}`` is a style sheet of the folder as it stands, ``{{ joined("main.js") }}``
-    its module with all that this imports (see `sim.show.html.bundle`), ``{{ value | script_json }}`` data for a script,
+    its module with all that this imports (see the head of this file), ``{{ value | script_json }}`` data for a script,
     ``{{ script_words("replay_scripts") | script_json }}`` a file of texts for scripts, which look for them in the
     element ``words``, and ``said("replay.quiz")`` a text in both languages; all else is escaped.
     """
