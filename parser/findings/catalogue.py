@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping
 from functools import cache
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, Literal, NamedTuple, Protocol, runtime_checkable
+from typing import Any, Literal, NamedTuple
 
 from parser.findings.codes import CODES
 from parser.findings.findings import NO_NAMES, Finding, Value
@@ -30,19 +30,6 @@ class Bilingual(NamedTuple):
 
     en: str
     zh: str
-
-
-@runtime_checkable
-class InBoth(Protocol):
-    """A text in both languages: `Bilingual`, and messages."""
-
-    @property
-    def en(self) -> str:
-        """The English text."""
-
-    @property
-    def zh(self) -> str:
-        """The Chinese text."""
 
 
 class CataloguePage(NamedTuple):
@@ -115,8 +102,9 @@ def filled(
 
 
 def in_language(value: object, language: Language) -> object:
-    """A value in a language: the text, where it is one in both languages; else the value as it is."""
-    return getattr(value, language) if isinstance(value, InBoth) else value
+    """A value in a language: the text, where it is one in both (`Bilingual`, a message); else the value as it is."""
+    # By attribute: a check of its type through a protocol takes longer than all else of a text.
+    return getattr(value, language, value) if isinstance(value, str | tuple) else value
 
 
 def remark_template(name: str, language: Language) -> str:
