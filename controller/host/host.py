@@ -2,11 +2,11 @@
 
 import math
 from collections.abc import Callable, Iterator
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 
-from controller.card.calls.base import Logged
+from controller.card.calls.base import SLICE_S, Logged
 from controller.card.core.codes import LIST_FULL, Code, CrdSts
 from controller.card.core.settings import CardSettings
 from controller.card.core.units import UM_S_PER_PULSE_MS
@@ -17,10 +17,6 @@ from controller.stepping.words import words_of
 from parser.findings.errors import ControllerError
 
 AXES = (1, 2)  # X and Y
-
-
-_SLICE_S: Final = 10.0
-"""Simulated time after which pulses are handed on while the host sleeps, so that few of them are held at a time."""
 
 
 class Host:
@@ -142,7 +138,7 @@ class Host:
 
     def _sleep(self, ms: float) -> Iterator[Pulses]:
         """Sleep, and hand on the pulses that go out."""
-        for _ in self.card.sleeping(ms, _SLICE_S):
+        for _ in self.card.sleeping(ms, SLICE_S):
             yield from map(self._placed, self._due)
             self._due.clear()
 
@@ -177,7 +173,7 @@ class Host:
 
 
 def _refused(call: Any, arguments: tuple[float, ...], code: int) -> ControllerError:
-    asked_text = ", ".join(map(str, arguments))
+    arguments_text = ", ".join(map(str, arguments))
     return ControllerError(
-        "card-refused", call=call.__name__, arguments=asked_text, code=code, name=Code(code).name.lower()
+        "card-refused", call=call.__name__, arguments=arguments_text, code=code, name=Code(code).name.lower()
     )

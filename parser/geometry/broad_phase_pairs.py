@@ -96,10 +96,10 @@ def _in_whole_cells(boxes: Boxes, corner: Bytes, mates: Ints) -> tuple[Ints, Int
 def _in_cut_cell(boxes: Boxes, corner: Bytes, mates: Ints, first: int, past: int) -> tuple[Ints, Ints]:
     """Pairs of rows whose boxes meet, of the entries from `first` up to `past` with their mates, all in one cell."""
     count = mates[first:past]
-    each = np.repeat(np.arange(first, past), count)
-    other = each + 1 + np.arange(len(each)) - np.repeat(np.cumsum(count) - count, count)
-    near = _meet(boxes, corner, each, other)
-    return boxes.row[each[near]], boxes.row[other[near]]
+    this = np.repeat(np.arange(first, past), count)
+    other = this + 1 + np.arange(len(this)) - np.repeat(np.cumsum(count) - count, count)
+    near = _meet(boxes, corner, this, other)
+    return boxes.row[this[near]], boxes.row[other[near]]
 
 
 def _meet(boxes: Boxes, corner: Bytes, this: Ints | slice, other: Ints | slice) -> Bools:

@@ -66,8 +66,8 @@ def _near(curves: Curves, others: Boxes, cell: float, margin_um: float) -> Near:
     for begin, end in chunks(np.cumsum(number)):
         count = number[begin:end]
         other = np.repeat(np.arange(begin, end), count)
-        each = np.repeat(first[begin:end] - np.cumsum(count) + count, count) + np.arange(len(other))
-        found.append(_meeting(boxes, others, each, other, base))
+        this = np.repeat(first[begin:end] - np.cumsum(count) + count, count) + np.arange(len(other))
+        found.append(_meeting(boxes, others, this, other, base))
     pair = distinct(np.concatenate(found))
     return Near(pair // base, pair % base)
 

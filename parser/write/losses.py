@@ -82,5 +82,5 @@ def _of(what: str, text: str, spans: list[tuple[int, int]]) -> Loss:
 
 def some(names: Iterable[str]) -> str:
     """Names without those that are there already, the first few of them."""
-    each = list(dict.fromkeys(names))
-    return ", ".join(each[:_MOST_NAMED]) + (" …" if len(each) > _MOST_NAMED else "")
+    distinct = list(dict.fromkeys(names))
+    return ", ".join(distinct[:_MOST_NAMED]) + (" …" if len(distinct) > _MOST_NAMED else "")

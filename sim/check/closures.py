@@ -132,7 +132,7 @@ def _suspects(program: Program, contour: Contour, guilty: Ints) -> list[Finding]
 
 def suspect_finding(program: Program, first: int, last: int, suspects: tuple[Suspect, ...]) -> Finding:
     """Finding 3B304 at a block with which the contour of the blocks from `first` to `last` closes in these ways."""
-    each, others = (
+    first_suspect, others = (
         suspects[0],
         [] if program.mender is None else [program.mender.mends_text((s.mend,)) for s in suspects[1:]],
     )
@@ -140,12 +140,12 @@ def suspect_finding(program: Program, first: int, last: int, suspects: tuple[Sus
         program.toolpath,
         program.lines,
         "3B304",
-        each.row,
-        each.field,
+        first_suspect.row,
+        first_suspect.field,
         first=first,
         last=last,
-        field=each.field.term,
-        written=each.written,
-        other=each.other,
+        field=first_suspect.field.term,
+        written=first_suspect.written,
+        other=first_suspect.other,
         others=" / ".join(others),
     ).with_fact(Suspected(first, suspects))

@@ -40,10 +40,10 @@ def listing_of(session: Session) -> str:
 
 def _line(event: Event) -> str:
     if isinstance(event, Questions):
-        asked_text = ", ".join(
+        questions_text = ", ".join(
             f"{text} ×{times.often}" if times.often > 1 else text for text, times in event.calls.items()
         )
-        return f"{event.t_s:12.6f}  ? {asked_text}"
+        return f"{event.t_s:12.6f}  ? {questions_text}"
     call = event.call
     arguments = ", ".join(map(repr, call.arguments))
     answer = f" = {call.answer!r}" if call.answer is not None else ""

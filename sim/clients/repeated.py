@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator
 from typing import Final, NamedTuple
 
-from controller.card.calls.base import Logged
+from controller.card.calls.base import SLICE_S, Logged
 from controller.card.core.state import LimitMet
 from controller.card.engine.motion import Driven
 from controller.card.ge import GECard
@@ -15,8 +15,6 @@ from controller.stepping.pulses import Pulses
 from sim.clients.session import ClientCall, Session
 
 _MOMENT_S: Final = 1e-9
-_SLICE_S: Final = 10.0
-"""Simulated time after which pulses are handed on, so that few of them are held at a time."""
 
 
 class Again(NamedTuple):
@@ -82,10 +80,12 @@ def pulses_again(session: Session, made: Again, until_s: float) -> Iterator[Puls
     card = GECard(session.settings, on_pulses=due.append)
 
     def waited(t_s: float) -> Iterator[Pulses]:
-        while card.time_s < t_s or due:
-            card.wait_until(min(card.time_s + _SLICE_S, t_s))
+        while True:
+            card.wait_until(min(card.time_s + SLICE_S, t_s))
             yield from due
             due.clear()
+            if card.time_s >= t_s:
+                return
 
     for each in made.told:
         if each.call.t_s > until_s:
@@ -93,8 +93,6 @@ def pulses_again(session: Session, made: Again, until_s: float) -> Iterator[Puls
         yield from waited(each.call.t_s)
         call(card, each.call)
     yield from waited(min(until_s, made.moving_s[-1][1] if made.moving_s else 0.0))
-    card.wait_until(card.time_s)
-    yield from due
 
 
 def _to_rest(card: GECard, since_s: float) -> bool:

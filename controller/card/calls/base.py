@@ -18,6 +18,8 @@ from controller.stepping.pulses import Pulses
 
 LONGEST_S = 1e9
 """A card is simulated for 31 years at most: until then its clock tells servo periods apart to a thousandth."""
+SLICE_S = 10.0
+"""Simulated time, s, after which who lets a card run takes its pulses, so that few of them are held at a time."""
 _OK = int(Code.OK)
 Hook: TypeAlias = Callable[[str, int], object]
 """What `GT_HookCommand` is given: told the name of each call that was made, and its code."""
@@ -85,7 +87,9 @@ class CardBase:
                 pass
 
     def sleeping(self, ms: float, slice_s: float) -> Iterator[None]:
-        """`sleep` in slices: after each of them the pulses due by then are handed out; it is one call in the log.
+        """`sleep` for ms in slices of s: after each of them the pulses due by then are handed out.
+
+        It is one call in the log, made when it is over.
 
         Errors are those of `sleep`, raised when the first slice is asked for.
         """

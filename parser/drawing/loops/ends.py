@@ -87,11 +87,11 @@ def near(place: Floats, within_um: float) -> tuple[Ints, Ints]:
     for right, up in _NEIGHBOURS:
         wanted = cell_keys(*(cell[order] + (right, up)).T)
         low, number = np.searchsorted(key[order], wanted), _count(key[order], wanted)
-        each = np.repeat(np.arange(len(order)), number)
-        other = low[each] + np.arange(len(each)) - (np.cumsum(number) - number)[each]
+        this = np.repeat(np.arange(len(order)), number)
+        other = low[this] + np.arange(len(this)) - (np.cumsum(number) - number)[this]
         if (right, up) == (0, 0):
-            each, other = each[each < other], other[each < other]
-        pairs.append(np.column_stack([order[each], order[other]]))
+            this, other = this[this < other], other[this < other]
+        pairs.append(np.column_stack([order[this], order[other]]))
     return np.concatenate(pairs), np.flatnonzero(crowded)
 
 

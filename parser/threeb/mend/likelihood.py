@@ -112,8 +112,8 @@ def slip(written: Ints, other: Ints) -> Ints:
     long, short = np.maximum(written, other), np.minimum(written, other)
     one_less = (long // (10 * places) * places + long % places == short).any(axis=0)
     lost = one_less & (_digits(long) == _digits(short) + 1)
-    each = lost | (same_length & (changed == 1))
-    return np.where(each, 7, np.where(same_length & (changed == 2), 2, 0))
+    single = lost | (same_length & (changed == 1))
+    return np.where(single, 7, np.where(same_length & (changed == 2), 2, 0))
 
 
 def _digits(number: Ints) -> Ints:

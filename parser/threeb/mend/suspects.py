@@ -119,7 +119,7 @@ def _rings(toolpath: Toolpath, first: int, past: int, tolerance_um: float) -> li
 def _ring_rows(rings: list[_Ring]) -> _RingRows:
     """The rows of all rings, one ring's behind the other's."""
     of = np.repeat(np.arange(len(rings)), [len(ring.rows) for ring in rings])
-    each = _RingRows(
+    ring_rows = _RingRows(
         row=np.arange(len(rings)),
         begin=np.array([ring.begin for ring in rings]),
         end=np.array([ring.end for ring in rings]),
@@ -127,7 +127,7 @@ def _ring_rows(rings: list[_Ring]) -> _RingRows:
         points=np.array([ring.points for ring in rings]),
         is_led=np.array([ring.is_led for ring in rings]),
     )
-    return each.take(of)._replace(row=np.concatenate([ring.rows for ring in rings]))
+    return ring_rows.take(of)._replace(row=np.concatenate([ring.rows for ring in rings]))
 
 
 def _ranked(toolpath: Toolpath, rows: _RingRows, all_um: Floats, tolerance_um: float) -> _Ranked:

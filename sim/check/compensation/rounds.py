@@ -71,15 +71,15 @@ def edges_of_contours(contours: Sequence[Curves]) -> tuple[Along, ...]:
     first: list[int] = []  # contour of each edge
     counts: list[int] = []
     found = []
-    for at, each_one in enumerate(ones):
-        near = np.flatnonzero(_meets(boxes[:, :, : len(first)], each_one.box_um)).tolist()
-        of, is_tab = next(_matches(each_one, {edge: ones[first[edge]] for edge in near}), (len(first), False))
+    for at, contour_edge in enumerate(ones):
+        near = np.flatnonzero(_meets(boxes[:, :, : len(first)], contour_edge.box_um)).tolist()
+        of, is_tab = next(_matches(contour_edge, {edge: ones[first[edge]] for edge in near}), (len(first), False))
         if of == len(first):
-            boxes[:, :, of] = each_one.box_um
+            boxes[:, :, of] = contour_edge.box_um
             first.append(at)
             counts.append(0)
         counts[of] += 1
-        is_back = counts[of] > 1 and _is_back(each_one, ones[first[of]], is_tab)
+        is_back = counts[of] > 1 and _is_back(contour_edge, ones[first[of]], is_tab)
         found.append(Along(of, counts[of], is_back, is_tab))
     return tuple(found)
 

@@ -136,8 +136,8 @@ def _rings_at(rings: list[shapely.LinearRing], place_um: Floats) -> Ints:
     # The places are in the tree and the strings query it: shapely prepares what queries.
     tree = shapely.STRtree(list(shapely.points(place_um)))  # type: ignore[arg-type]
     string, ring = _strings(rings)
-    each, at = tree.query(string, predicate="dwithin", distance=_ON_UM)
-    found[at] = ring[each]
+    piece_of_string, at = tree.query(string, predicate="dwithin", distance=_ON_UM)
+    found[at] = ring[piece_of_string]
     return found
 
 

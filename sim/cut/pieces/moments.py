@@ -91,16 +91,16 @@ def _came_free_with(
     cutting: Cutting, tree: shapely.STRtree, asked: dict[int, _BoxedPart], freed_with: dict[int, int], part: int
 ) -> int | None:
     """The part that a part came free with, itself where that was when the kerf closed round it; None is not known."""
-    each = asked[part]
-    hung = each.closing.hung_um
-    if each.question.is_whole or cutting.frame_um.intersects(hung):
+    boxed = asked[part]
+    hung = boxed.closing.hung_um
+    if boxed.question.is_whole or cutting.frame_um.intersects(hung):
         return part
     for beside in tree.query(hung, predicate="intersects").tolist():
         if beside not in asked or cutting.contours[beside] != cutting.contours[part]:
             continue
         other = _last(freed_with, beside)
-        if asked[other].when != each.when:
-            return part if asked[other].when > each.when else other
+        if asked[other].when != boxed.when:
+            return part if asked[other].when > boxed.when else other
     return None
 
 

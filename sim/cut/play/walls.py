@@ -141,9 +141,9 @@ def room_of(walls: Walls, outline_um: shapely.Polygon, wire_um: Point, t_s: floa
 def _runs(number: Ints) -> Ints:
     """Runs (q, 3) of rings with so many corners (r,): ring, first and last corner."""
     sides, begin = number - 1, np.cumsum(number) - number
-    each = -(-sides // _TOGETHER)
-    ring = np.repeat(np.arange(len(number)), each)
-    nth = np.arange(len(ring)) - (np.cumsum(each) - each)[ring]
+    sides_at_once = -(-sides // _TOGETHER)
+    ring = np.repeat(np.arange(len(number)), sides_at_once)
+    nth = np.arange(len(ring)) - (np.cumsum(sides_at_once) - sides_at_once)[ring]
     first = nth * _TOGETHER
     last = np.minimum(first + _TOGETHER, sides[ring])
     return np.stack([ring, begin[ring] + first, begin[ring] + last], axis=1)

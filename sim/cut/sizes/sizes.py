@@ -111,9 +111,9 @@ def _nearest(lines: KeptLines, facing: Bools) -> tuple[Ints, Ints]:
     middle = lines.start_um + 0.5 * lines.length_um[:, None] * lines.way
     off = np.abs(across @ middle.T - (across * lines.start_um).sum(axis=1)[:, None])
     off[~facing] = np.inf
-    each = np.flatnonzero(facing.any(axis=1))
-    other = np.argmin(off[each], axis=1) if len(each) else each
-    pairs = np.unique(np.sort(np.stack([each, other], axis=1), axis=1), axis=0).reshape(-1, 2)
+    this = np.flatnonzero(facing.any(axis=1))
+    other = np.argmin(off[this], axis=1) if len(this) else this
+    pairs = np.unique(np.sort(np.stack([this, other], axis=1), axis=1), axis=0).reshape(-1, 2)
     return pairs[:, 0], pairs[:, 1]
 
 

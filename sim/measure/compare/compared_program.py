@@ -40,8 +40,8 @@ class FailingContour(NamedTuple):
 
 def failing_contours(found: Comparison, of: ProgramEdges) -> list[FailingContour]:
     """The contours that lie past the tolerance, in their order."""
-    each = (FailingContour(at, _off(found, ring)) for at, ring in enumerate(of.rings.rings))
-    return [contour for contour in each if contour.off_um > found.asked.tolerance_um]
+    failing = (FailingContour(at, _off(found, ring)) for at, ring in enumerate(of.rings.rings))
+    return [contour for contour in failing if contour.off_um > found.asked.tolerance_um]
 
 
 def contour_names(

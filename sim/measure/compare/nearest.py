@@ -90,8 +90,8 @@ def _spread_bits(number: Ints) -> Ints:
 
 def _around(boxes: Floats, number: int) -> Floats:
     """Boxes about each so many of the boxes (m, 4)."""
-    each = [boxes[at::number] for at in range(number)]
-    low, high = (reduce(least, (box[:, side] for box in each)) for least, side in _SIDES)
+    columns = [boxes[at::number] for at in range(number)]
+    low, high = (reduce(least, (box[:, side] for box in columns)) for least, side in _SIDES)
     return np.concatenate([low, high], axis=1)
 
 

@@ -118,14 +118,14 @@ def pass_entries(run: DryRun) -> list[dict[str, Any]]:
 
 
 def _pass(figures: PassFigures, reach_um: float) -> dict[str, Any]:
-    each, worst = figures.of, figures.worst
+    pass_, worst = figures.of, figures.worst
     return {
-        "contour": each.edge + 1,
-        "number": each.number,
-        "blocks": [each.first + 1, each.last + 1],
-        "offset_um": rounded(each.offset_um(reach_um)),
-        "direction": "back" if each.is_back else "forward",
-        "cuts_tab": each.is_tab,
+        "contour": pass_.edge + 1,
+        "number": pass_.number,
+        "blocks": [pass_.first + 1, pass_.last + 1],
+        "offset_um": rounded(pass_.offset_um(reach_um)),
+        "direction": "back" if pass_.is_back else "forward",
+        "cuts_tab": pass_.is_tab,
         "length_um": rounded(figures.length_um),
         "time_s": rounded(figures.time_s),
         "stock_um": _stock(figures.stock),

@@ -117,9 +117,9 @@ def _scope(module: _Module, values: dict[Path, str]) -> str:
     imports = iter(module.imports)
 
     def as_constant(_: re.Match[str]) -> str:
-        each = next(imports)
-        names = ", ".join(name if name == here else f"{name}: {here}" for name, here in each.names)
-        return f"const {each.all_as or f'{{ {names} }}'} = {values[each.path]};"
+        import_ = next(imports)
+        names = ", ".join(name if name == here else f"{name}: {here}" for name, here in import_.names)
+        return f"const {import_.all_as or f'{{ {names} }}'} = {values[import_.path]};"
 
     body = re.sub(r"\n{3,}", "\n\n", _DOC.sub("", _EXPORT.sub("", _IMPORT.sub(as_constant, module.text)))).strip("\n")
     return f"const {values[module.path]} = (() => {{\n{body}\nreturn {{ {', '.join(module.exports)} }};\n}})();\n"

@@ -74,8 +74,8 @@ class AskedBlock(NamedTuple):
         if not self.is_arc:
             return self.quadrant
         x, y = np.rint(self.start_um - self.center_um).astype(np.int64)
-        each = np.ones(1, dtype=np.int64)
-        (quarter,) = walk_arcs(x * each, y * each, each, each, self.turn * each).quarter.tolist()
+        unit = np.ones(1, dtype=np.int64)
+        (quarter,) = walk_arcs(x * unit, y * unit, unit, unit, self.turn * unit).quarter.tolist()
         return int(quarter) + 1 if self.turn > 0 else 4 - int(quarter)
 
 

@@ -158,10 +158,10 @@ def _left_out(left_out: tuple[LeftOut, ...], words: Words) -> Iterator[str]:
         by_reason[each_left_out.why].append(each_left_out)
     for ones in by_reason.values():
         kinds: dict[str, int] = defaultdict(int)
-        for each_one in ones:
-            kinds[each_one.entity.kind] += 1
+        for excluded in ones:
+            kinds[excluded.entity.kind] += 1
         counted = listed(same(f"{number:,} {printable(kind)}") for kind, number in kinds.items())
-        places = tuple(each_one.place_um for each_one in ones if each_one.place_um is not None)
+        places = tuple(excluded.place_um for excluded in ones if excluded.place_um is not None)
         text = bilingual("program.left-out", what=counted, why=_why(ones))
         yield getattr(_with_places(text, places), words.language)
 

@@ -57,11 +57,11 @@ def _pass_name(pass_: Pass, among: Counter[int], tell: Words) -> str:
 
 
 def _pass(figures: PassFigures, reach_um: float, tell: Words) -> str:
-    each, stock = figures.of, figures.stock
-    way = "tab-" * each.is_tab + ("back" if each.is_back else "forward")
+    pass_, stock = figures.of, figures.stock
+    way = "tab-" * pass_.is_tab + ("back" if pass_.is_back else "forward")
     values = {
         "way": tell(f"summary.way-{way}"),
-        "offset": f"{each.offset_um(reach_um):,.0f}",
+        "offset": f"{pass_.offset_um(reach_um):,.0f}",
         "time": lasting(figures.time_s),
     }
     if stock is None:

@@ -173,9 +173,9 @@ def _curvature(strings: Strings, piece: Ints, share: Floats) -> Floats:
         value = value * share[:, None] + factors[piece]
     w, w1, w2 = (part[:, 2:] for part in (value, slope, second))
     place = value[:, :2] / w
-    each = (slope[:, :2] - w1 * place) / w
-    two = (second[:, :2] - 2.0 * w1 * each - w2 * place) / w
-    bend: Floats = (each[:, 0] * two[:, 1] - each[:, 1] * two[:, 0]) / np.hypot(each[:, 0], each[:, 1]) ** 3
+    first = (slope[:, :2] - w1 * place) / w
+    two = (second[:, :2] - 2.0 * w1 * first - w2 * place) / w
+    bend: Floats = (first[:, 0] * two[:, 1] - first[:, 1] * two[:, 0]) / np.hypot(first[:, 0], first[:, 1]) ** 3
     return bend
 
 

@@ -100,10 +100,10 @@ def _joints(ran: Curves, row: Ints, after: Ints, gap: Floats) -> Floats:
     place = prolonged_meet(ran, row, after).place_um
     off = np.hypot(*np.moveaxis(place - middle[:, None], 2, 0))
     nearest = np.argmin(np.where(np.isnan(off), np.inf, off), axis=1)
-    each = np.arange(len(row))
+    index = np.arange(len(row))
     short = np.minimum(ran.length_um[row], ran.length_um[after])
-    near = off[each, nearest] <= np.minimum(_FAR * gap, _SHORTER * short)
-    joint = np.where(near[:, None], place[each, nearest], middle)
+    near = off[index, nearest] <= np.minimum(_FAR * gap, _SHORTER * short)
+    joint = np.where(near[:, None], place[index, nearest], middle)
     for side, at in ((after, start), (row, end)):
         stiff = _is_stiff(ran, side, gap) & ~near
         joint[stiff] = at[stiff]

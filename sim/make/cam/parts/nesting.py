@@ -98,9 +98,9 @@ def _arc_pieces(curves: Curves, arc: Ints, first: Floats, last: Floats, half: Fl
     lowest = np.minimum(begin, begin + curves.sweep_rad[arc])
     highest = np.maximum(begin, begin + curves.sweep_rad[arc])
     # Ends are those of the curve itself, so that no ray passes between two curves.
-    each = np.where((first == lowest)[:, None], low_end, ends[0])
+    this = np.where((first == lowest)[:, None], low_end, ends[0])
     other = np.where((last == highest)[:, None], high_end, ends[1])
-    start, end = np.where(back[:, None], other, each), np.where(back[:, None], each, other)
+    start, end = np.where(back[:, None], other, this), np.where(back[:, None], this, other)
     bulge = np.where(np.mod(half, 2.0) == 0.0, -1.0, 1.0)
     return _sorted(curves, arc, start, end, bulge)
 

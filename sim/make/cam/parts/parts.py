@@ -87,8 +87,11 @@ def _nearest(end_um: Floats) -> tuple[Ints, Floats]:
 def _refuse_almost(drawing: Drawing, chains: _Chains, near: Ints, gap_um: float) -> None:
     """Look at each end with the one nearest to it, and at both ends of each chain."""
     ends = chains.end_um.reshape(-1, 2)
-    each = np.arange(len(chains.length_um))
-    end, mate = np.concatenate([np.arange(len(ends)), 2 * each]), np.concatenate([near.ravel(), 2 * each + 1])
+    chain_number = np.arange(len(chains.length_um))
+    end, mate = (
+        np.concatenate([np.arange(len(ends)), 2 * chain_number]),
+        np.concatenate([near.ravel(), 2 * chain_number + 1]),
+    )
     apart = np.hypot(*(ends[end] - ends[mate]).T)
     shorter = np.minimum(chains.length_um[end // 2], chains.length_um[mate // 2])
     itself = (end // 2 == mate // 2) & chains.is_bent[end // 2] & (apart < _ALMOST_OF_LENGTH * shorter)
@@ -244,15 +247,15 @@ def _once(drawing: Drawing, found: _Found, within_um: float) -> tuple[_Found, tu
     low = found.low_um[order, 0]
     past = np.searchsorted(low, low + within_um, side="right")
     number = past - np.arange(len(low)) - 1
-    each = np.repeat(np.arange(len(low)), number)
-    other = each + 1 + np.arange(len(each)) - (np.cumsum(number) - number)[each]
-    each, other = order[each], order[other]
+    this = np.repeat(np.arange(len(low)), number)
+    other = this + 1 + np.arange(len(this)) - (np.cumsum(number) - number)[this]
+    this, other = order[this], order[other]
     off = np.maximum(
-        np.abs(found.low_um[each] - found.low_um[other]), np.abs(found.high_um[each] - found.high_um[other])
+        np.abs(found.low_um[this] - found.low_um[other]), np.abs(found.high_um[this] - found.high_um[other])
     )
     keep = np.ones(len(found.loops), dtype=np.bool_)
     for at in np.flatnonzero(off.max(axis=1) <= within_um).tolist():
-        first, again = int(each[at]), int(other[at])
+        first, again = int(this[at]), int(other[at])
         rings = [found.contours.contour(number) for number in (first, again)]
         if keep[first] and all(
             (nearest_um(ring, spread(mate), within_um) <= within_um).all() for ring, mate in (rings, rings[::-1])

@@ -167,8 +167,8 @@ def _depths(shapes: Sequence[shapely.Polygon]) -> Ints:
     """(k,) how many of the others lie round each: a place within it lies within them, and they are larger."""
     area = shapely.area(shapes)
     inner = np.asarray(shapely.point_on_surface(shapes), dtype=np.object_)
-    each, around = shapely.STRtree(shapes).query(inner, predicate="within")
-    depth: Ints = np.bincount(each[area[around] > area[each]], minlength=len(shapes))
+    shape, around = shapely.STRtree(shapes).query(inner, predicate="within")
+    depth: Ints = np.bincount(shape[area[around] > area[shape]], minlength=len(shapes))
     return depth
 
 

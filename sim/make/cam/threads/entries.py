@@ -165,8 +165,8 @@ def nearest_of(room: Room, side: Floats, at: int, place_um: Floats) -> Entry:
     """The entry of one figure at its place nearest to another one (2,)."""
     row, _ = room.rows(np.array([at]))
     foot = feet(room.curves, row, np.broadcast_to(place_um, (len(row), 2))).place_um
-    each = int(np.argmin(np.hypot(*(foot - place_um).T)))
-    row, foot = row[each : each + 1], foot[each : each + 1]
+    nearest = int(np.argmin(np.hypot(*(foot - place_um).T)))
+    row, foot = row[nearest : nearest + 1], foot[nearest : nearest + 1]
     along = along_um(room.curves, row, foot)
     out = _out(room, side, row, headings_along(room.curves, row, along))
     return Entries(row, along, foot, out, np.zeros(1)).entry(room, 0)
