@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from controller.card.calls.base import SLICE_S, Logged
+from controller.card.calls.base import Logged, slice_of
 from controller.card.core.codes import LIST_FULL, Code, CrdSts
 from controller.card.core.settings import CardSettings
 from controller.card.core.units import UM_S_PER_PULSE_MS
@@ -138,7 +138,7 @@ class Host:
 
     def _sleep(self, ms: float) -> Iterator[Pulses]:
         """Sleep, and hand on the pulses that go out."""
-        for _ in self.card.sleeping(ms, SLICE_S):
+        for _ in self.card.sleeping(ms, slice_of(ms / 1e3)):
             yield from map(self._placed, self._due)
             self._due.clear()
 

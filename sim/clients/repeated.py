@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator
 from typing import Final, NamedTuple
 
-from controller.card.calls.base import SLICE_S, Logged
+from controller.card.calls.base import Logged, slice_of
 from controller.card.core.state import LimitMet
 from controller.card.engine.motion import Driven
 from controller.card.ge import GECard
@@ -80,8 +80,9 @@ def pulses_again(session: Session, made: Again, until_s: float) -> Iterator[Puls
     card = GECard(session.settings, on_pulses=due.append)
 
     def waited(t_s: float) -> Iterator[Pulses]:
+        slice_s = slice_of(t_s - card.time_s)
         while True:
-            card.wait_until(min(card.time_s + SLICE_S, t_s))
+            card.wait_until(min(card.time_s + slice_s, t_s))
             yield from due
             due.clear()
             if card.time_s >= t_s:

@@ -10,8 +10,9 @@ from lawful import assert_plan_is_lawful
 from line_words import line_words
 from strategies import program_text, programs
 
-from controller.card.calls.base import Logged
+from controller.card.calls.base import Logged, slice_of
 from controller.card.core.settings import CardSettings
+from controller.card.ge import GECard
 from controller.host.entries import Drive, Interpolation, entries_of
 from controller.host.host import Host
 from controller.motion.junctions import JunctionDeviation, SlowAt, StopEach, Through, path_of
@@ -177,3 +178,11 @@ def test_a_jerk_limit_reaches_the_card() -> None:
     pulses, _ = driven(drive, CardSettings(jerk_pulse_ms3=1e6 / 1e9))
     assert drive.plan.jerk_um_s3.any()
     assert pulses.t_s == pytest.approx(planned(drive).t_s, abs=1e-6)  # s
+
+
+@pytest.mark.parametrize("seconds", [0.001, 10.0, 3600.0, 1e6, 1e9])
+def test_a_sleep_of_years_is_no_more_than_so_many_slices(seconds: float) -> None:
+    card = GECard(CardSettings())
+    slices = sum(1 for _ in card.sleeping(seconds * 1e3, slice_of(seconds)))
+    assert slices <= 100_001
+    assert card.time_s == seconds

@@ -18,11 +18,19 @@ from controller.stepping.pulses import Pulses
 
 LONGEST_S = 1e9
 """A card is simulated for 31 years at most: until then its clock tells servo periods apart to a thousandth."""
-SLICE_S = 10.0
-"""Simulated time, s, after which who lets a card run takes its pulses, so that few of them are held at a time."""
+_SLICE_S = 10.0
+_MOST_SLICES = 100_000
 _OK = int(Code.OK)
 Hook: TypeAlias = Callable[[str, int], object]
 """What `GT_HookCommand` is given: told the name of each call that was made, and its code."""
+
+
+def slice_of(seconds: float) -> float:
+    """Simulated time, s, after which who lets a card run for so many seconds takes its pulses.
+
+    So few pulses are held at a time, and no more than `_MOST_SLICES` slices are made of years.
+    """
+    return max(_SLICE_S, seconds / _MOST_SLICES)
 
 
 class Logged(NamedTuple):
