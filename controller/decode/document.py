@@ -2,27 +2,26 @@
 
 import json
 from collections.abc import Sequence
-from typing import Any, Final
+from typing import Final
 
 from controller.decode.blocks import Decoded, Way
+from controller.decode.model import BlockEntry, DecodeDocument, InForceEntry, StepEntry, WayEntry
 from parser import __version__
-from parser.dialect.decoding import DecodedBlock, InForce
+from parser.dialect.decoding import DecodeStep, InForce
 from parser.findings.catalogue import Language
 from parser.program import Program
 from parser.toolpath import Point
 
-SCHEMA: Final = "drycut.decode/1"
 _DIGITS: Final = 6
-_PLACES: Final = ("start_um", "end_um", "left_um", "right_um", "wire_center_um", "arc_center_um")
 
 
-def document(program: Program, blocks: Sequence[Decoded], language: Language) -> dict[str, Any]:
+def document(program: Program, blocks: Sequence[Decoded], language: Language) -> DecodeDocument:
     """Blocks of a program as plain lists, dicts, numbers and None; the order of keys is fixed.
 
     Why something was assumed is told in a language.
     """
     return {
-        "schema": SCHEMA,
+        "schema": "drycut.decode/1",
         "drycut": __version__,
         "file": program.name,
         "dialect": program.reading.dialect,
@@ -36,7 +35,7 @@ def document_text(program: Program, blocks: Sequence[Decoded], language: Languag
     return json.dumps(document(program, blocks, language), ensure_ascii=False, allow_nan=False, indent=2) + "\n"
 
 
-def block_entry(decoded: Decoded) -> dict[str, Any]:
+def block_entry(decoded: Decoded) -> BlockEntry:
     """A block: the buffer that it fills, the steps in which it does so, what is in force, and its way."""
     block = decoded.block
     return {
@@ -45,16 +44,6 @@ def block_entry(decoded: Decoded) -> dict[str, Any]:
         "number": block.number,
         "number_bcd": block.number_bcd,
         "coor_um": dict(block.coor_um),
-        **_registers(block),
-        "others": {letter: plain(value) for letter, value in block.others.items()},
-        "steps": [{**step._asdict(), "value": plain(step.value)} for step in block.steps],
-        "in_force": None if block.in_force is None else _in_force(block.in_force),
-        "way": None if decoded.way is None else _way(decoded.way),
-    }
-
-
-def _registers(block: DecodedBlock) -> dict[str, Any]:
-    return {
         "f": plain(block.f),
         "s": plain(block.s),
         "g0": block.g0,
@@ -63,20 +52,45 @@ def _registers(block: DecodedBlock) -> dict[str, Any]:
         "t": plain(block.t),
         "d": plain(block.d),
         "h": plain(block.h),
+        "others": {letter: plain(value) for letter, value in block.others.items()},
+        "steps": [_step(step) for step in block.steps],
+        "in_force": None if block.in_force is None else _in_force(block.in_force),
+        "way": None if decoded.way is None else _way(decoded.way),
     }
 
 
-def _in_force(force: InForce) -> dict[str, Any]:
-    return {**force._asdict(), "offset_um": plain(force.offset_um), "f": plain(force.f)}
+def _step(step: DecodeStep) -> StepEntry:
+    return {
+        "order": step.order,
+        "word": step.word,
+        "column": step.column,
+        "field": step.field,
+        "value": plain(step.value),
+    }
 
 
-def _way(way: Way) -> dict[str, Any]:
-    places = {name: _place(getattr(way, name)) for name in _PLACES}
+def _in_force(force: InForce) -> InForceEntry:
+    return {
+        "motion": force.motion,
+        "distance": force.distance,
+        "side": force.side,
+        "register": force.register,
+        "offset_um": plain(force.offset_um),
+        "f": plain(force.f),
+    }
+
+
+def _way(way: Way) -> WayEntry:
     return {
         "row": way.row,
         "runs": way.runs,
         "kind": way.kind,
-        **places,
+        "start_um": _place(way.start_um),
+        "end_um": _place(way.end_um),
+        "left_um": _known_place(way.left_um),
+        "right_um": _known_place(way.right_um),
+        "wire_center_um": _known_place(way.wire_center_um),
+        "arc_center_um": _known_place(way.arc_center_um),
         "length_um": _rounded(way.length_um),
         "joint": way.joint.value,
         "before_line": way.before_line or None,
@@ -90,8 +104,12 @@ def plain(value: float | None) -> float | None:
     return int(value) if value == int(value) else value
 
 
-def _place(place: Point | None) -> list[float] | None:
-    return None if place is None else [_rounded(place.x), _rounded(place.y)]
+def _place(place: Point) -> list[float]:
+    return [_rounded(place.x), _rounded(place.y)]
+
+
+def _known_place(place: Point | None) -> list[float] | None:
+    return None if place is None else _place(place)
 
 
 def _rounded(value: float) -> float:

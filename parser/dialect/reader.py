@@ -9,6 +9,7 @@ import numpy as np
 from parser.dialect.choices import Choices, Marks
 from parser.dialect.decoding import Decoder
 from parser.dialect.mender import Mender
+from parser.documents.fields import AssumptionEntry
 from parser.findings.catalogue import Language, term
 from parser.findings.codes import Check
 from parser.findings.findings import Finding
@@ -41,7 +42,7 @@ class Assumption(NamedTuple):
     taken: str
     why: str
 
-    def entry(self, language: Language) -> dict[str, str]:
+    def entry(self, language: Language) -> AssumptionEntry:
         """It as documents have it; why it was made is told in a language."""
         return {"what": self.what.removeprefix("assumed-"), "taken": self.taken, "why": term(self.why, language)}
 

@@ -1,19 +1,21 @@
 """Numbers of the report: rounded, and None where there is no such thing."""
 
-from typing import Any
+from collections.abc import Iterable
+from typing import Any, TypeVar, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from parser.geometry.curves import Floats
 
+Entry = TypeVar("Entry")
 _DIGITS = 6
 DEG_DIGITS = 9
 
 
 def rounded(value: float) -> float:
     """To the report's digits; never −0."""
-    return round(value, _DIGITS) + 0.0
+    return round(float(value), _DIGITS) + 0.0
 
 
 def moment(t_s: float, ran_s: float) -> float:
@@ -32,13 +34,24 @@ def column(values: Floats, digits: int = _DIGITS) -> list[float | None]:
     return [None if value != value else value for value in found]  # noqa: PLR0124 - NaN
 
 
+def place(of: Iterable[float]) -> list[float]:
+    """Rounded coordinates."""
+    return [rounded(along) for along in of]
+
+
+def corners(pairs: NDArray[np.float64]) -> list[list[float]]:
+    """Rounded pairs, none of them NaN."""
+    found: list[list[float]] = (np.round(pairs, _DIGITS) + 0.0).tolist()
+    return found
+
+
 def points(pairs: NDArray[np.float64]) -> list[list[float] | None]:
     """Rounded pairs; None for NaN."""
     found = (np.round(pairs, _DIGITS) + 0.0).tolist()
     return [None if pair[0] != pair[0] else pair for pair in found]
 
 
-def rows(columns: dict[str, list[Any]]) -> list[dict[str, Any]]:
-    """Columns as a list of entries."""
+def rows(model: type[Entry], columns: dict[str, list[Any]]) -> list[Entry]:
+    """Columns as a list of entries of a model, a `TypedDict`; mypy does not look into columns."""
     names = tuple(columns)
-    return [dict(zip(names, row, strict=True)) for row in zip(*columns.values(), strict=True)]
+    return cast("list[Entry]", [dict(zip(names, row, strict=True)) for row in zip(*columns.values(), strict=True)])

@@ -5,7 +5,7 @@ What came of a program for the card.
 
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -27,6 +27,7 @@ from sim.clients.unseen import Unseen, unseen_of
 from sim.run.dryrun import DryRun, PulseSink
 from sim.run.ending import travel_end
 from sim.run.prepare import Prepared
+from sim.run.report.model import CardDocument, ReportDocument
 from sim.run.running import Along, run_along
 from sim.setup.scenario import Scenario
 from sim.table.follow import Setup
@@ -119,4 +120,4 @@ class ClientRun(NamedTuple):
     read: Read
     ended: Ended
     run: DryRun | None
-    report: dict[str, Any]
+    report: ReportDocument | CardDocument

@@ -7,22 +7,21 @@ would tell of lost steps that no machine loses.
 """
 
 import math
-from typing import Any, Final
+from typing import Final
 
 from parser import __version__
 from sim.clients.findings import call_text
 from sim.clients.run import Read
 from sim.clients.session import Questions
 from sim.clients.started import Ended
+from sim.run.report.card_model import CardEntry
 from sim.run.report.document import finding_entry
+from sim.run.report.model import CardDocument
 from sim.setup.machine.machine import Machine
 from sim.setup.machine.table_model import Motor, TableModel
 
-SCHEMA = "drycut.card/1"
-"""Of a report of a program that moved neither X nor Y."""
 
-
-def card_document(read: Read, ended: Ended) -> dict[str, Any]:
+def card_document(read: Read, ended: Ended) -> CardEntry:
     """What the report has under ``card``; times s on the card's clock, lines those of ``calls.txt``."""
     session, again, unseen = read.session, read.again, read.unseen
     return {
@@ -65,13 +64,13 @@ def card_document(read: Read, ended: Ended) -> dict[str, Any]:
     }
 
 
-def without_motion(read: Read, name: str, ended: Ended) -> dict[str, Any]:
+def without_motion(read: Read, name: str, ended: Ended) -> CardDocument:
     """The report of a program that moved neither X nor Y: of a run there is nothing to tell."""
     return {
-        "schema": SCHEMA,
+        "schema": "drycut.card/1",
         "drycut": __version__,
         "verdict": "pass",
-        "program": {"name": read.program.name, "title": name, "dialect": read.program.reading.dialect},
+        "program": {"name": read.program.name, "title": name, "dialect": "GE card"},
         "findings": [finding_entry(finding) for finding in read.program.findings],
         "card": card_document(read, ended),
     }

@@ -27,6 +27,7 @@ from sim.base.workers.makers import Maker, made_by
 from sim.base.workers.processes import Pool
 from sim.base.workers.rounds import DIED, Lost, results
 from sim.jobs.index import Entry, Row, build_index, index_text
+from sim.jobs.index_model import IndexDocument
 from sim.jobs.run_into import NAMES
 from sim.jobs.shop import ShopProgram
 from sim.jobs.source import source_of
@@ -112,7 +113,7 @@ TAKEN: Final = frozenset({*NAMES, NAME, *INDEX})
 class Batch(NamedTuple):
     """What came of a shop: its index as data, and tracebacks of faults of drycut by the files that they happened at."""
 
-    document: dict[str, Any]
+    document: IndexDocument
     faults: dict[str, str]
 
 

@@ -9,9 +9,9 @@ from parser import __version__
 from parser.findings.catalogue import Bilingual
 from parser.findings.codes import Severity
 from parser.findings.findings import Count
+from sim.jobs.index_model import CountsEntry, IndexDocument, IndexRowEntry
 
 _NONE: Final = Bilingual("", "")
-SCHEMA: Final = "drycut.index/1"
 VERDICTS: Final = ("pass", "fail", "refused", "fault")
 _WORST_FIRST: Final = tuple(Severity)
 
@@ -54,17 +54,17 @@ class Entry(NamedTuple):
     from_cache: bool
 
 
-def build_index(entries: Sequence[Entry]) -> dict[str, Any]:
+def build_index(entries: Sequence[Entry]) -> IndexDocument:
     """The index as plain data, in the order of the entries; the order of keys is fixed, and there is no clock in it."""
     return {
-        "schema": SCHEMA,
+        "schema": "drycut.index/1",
         "drycut": __version__,
         "counts": _counts(entries),
         "programs": [_program(entry) for entry in entries],
     }
 
 
-def index_text(index: dict[str, Any]) -> str:
+def index_text(index: IndexDocument) -> str:
     """The index as JSON text, a line for each program."""
     head = {key: value for key, value in index.items() if key != "programs"}
     top = "".join(f'"{key}": {_line(value)},\n' for key, value in head.items())
@@ -72,7 +72,7 @@ def index_text(index: dict[str, Any]) -> str:
     return f'{{\n{top}"programs": [\n{programs}\n]\n}}\n'
 
 
-def _counts(entries: Sequence[Entry]) -> dict[str, int]:
+def _counts(entries: Sequence[Entry]) -> CountsEntry:
     verdicts = Counter(entry.row.verdict for entry in entries)
     severities = Counter[Severity]()
     for entry in entries:
@@ -80,13 +80,18 @@ def _counts(entries: Sequence[Entry]) -> dict[str, int]:
             severities[count.severity] += count.n
     return {
         "programs": len(entries),
-        **{verdict: verdicts[verdict] for verdict in VERDICTS},
+        "pass": verdicts["pass"],
+        "fail": verdicts["fail"],
+        "refused": verdicts["refused"],
+        "fault": verdicts["fault"],
         "from_cache": sum(entry.from_cache for entry in entries),
-        **{f"{severity}s": severities[severity] for severity in _WORST_FIRST},
+        "errors": severities[Severity.ERROR],
+        "warnings": severities[Severity.WARNING],
+        "notes": severities[Severity.NOTE],
     }
 
 
-def _program(entry: Entry) -> dict[str, Any]:
+def _program(entry: Entry) -> IndexRowEntry:
     row = entry.row
     return {
         "file": entry.file,

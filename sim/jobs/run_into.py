@@ -7,7 +7,7 @@ import shutil
 from collections.abc import Mapping
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, Final
+from typing import Final
 
 from controller.card.log.lines import CardLogError
 from controller.card.log.writer import CardLog
@@ -24,6 +24,7 @@ from sim.jobs.trace_file import TRACE, write_trace
 from sim.run.dryrun import DryRun
 from sim.run.recording import Recording, recording_of, reported, stages_of
 from sim.run.report import build_report, report_text
+from sim.run.report.model import ReportDocument
 from sim.run.running import dry_run
 from sim.setup.scenario import Scenario
 from sim.show.draw.sheet import pixels
@@ -78,7 +79,7 @@ def stages_of_files(scenario: Scenario, *, trace: bool) -> list[str]:
 
 def write_files(  # noqa: PLR0913 - what was run, where to, and in which language
     recording: Recording,
-    report: dict[str, Any],
+    report: ReportDocument,
     folder: Path,
     progress: Progress,
     *,
@@ -118,12 +119,12 @@ def client_into(folder: Path, log: Path, ended: Ended, scenario: Scenario, progr
         shutil.copyfile(log, stage / LOG)
         (stage / CALLS).write_text(read.program.text, "utf-8")
         if not len(read.program.toolpath):
-            report = without_motion(read, scenario.title, ended)
-            (stage / "report.json").write_text(report_text(report), "utf-8")
-            return ClientRun(read, ended, None, report)
+            at_rest = without_motion(read, scenario.title, ended)
+            (stage / "report.json").write_text(report_text(at_rest), "utf-8")
+            return ClientRun(read, ended, None, at_rest)
         with StepFiles(stage) as files:
             run = run_client(read, scenario, progress, files)
-        report = build_report(run) | {"card": card_document(read, ended)}
+        report: ReportDocument = {**build_report(run), "card": card_document(read, ended)}
         write_files(recording_of(run, files.paths, progress), report, stage, progress)
     return ClientRun(read, ended, run, report)
 

@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Iterable, Mapping
-from typing import Any
+from typing import Any, Literal
 
 from parser.findings.catalogue import TO
 from parser.findings.codes import Severity
@@ -12,7 +12,7 @@ from sim.setup.expectations import Expectation, Missed, wanted
 _LONGEST_SHOWN = 80
 
 
-def verdict(findings: Iterable[Finding]) -> str:
+def verdict(findings: Iterable[Finding]) -> Literal["pass", "fail"]:
     """``fail`` where any finding is an error, else ``pass``."""
     return "fail" if any(finding.severity is Severity.ERROR for finding in findings) else "pass"
 

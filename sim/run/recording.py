@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from sim.cut.remains import pieces_left
 from sim.run.dryrun import DryRun
 from sim.run.findings import expectation_findings
 from sim.run.report import build_report
+from sim.run.report.model import ReportDocument
 from sim.run.running import dry_run
 from sim.setup.expectations import missed
 from sim.setup.scenario import Scenario
@@ -81,7 +82,7 @@ def check_expectations(run: DryRun) -> DryRun:
     return reported(run)[0] if run.scenario.expect else run
 
 
-def reported(run: DryRun) -> tuple[DryRun, dict[str, Any]]:
+def reported(run: DryRun) -> tuple[DryRun, ReportDocument]:
     """The run as `check_expectations` has it, and its report."""
     report = build_report(run)
     unmet = missed(report, run.scenario.expect)

@@ -1,6 +1,5 @@
 """docs/iso.md, section 8, against what decoding really gives."""
 
-import json
 import re
 
 import pytest
@@ -13,7 +12,6 @@ from parser.dialect.choices import Choices
 from parser.program import parse_program
 
 SECTION = re.split(r"^## ", (ROOT / "docs" / "iso.md").read_text(encoding="utf-8"), flags=re.MULTILINE)[8]
-SCHEMA = json.loads((ROOT / "docs" / "decode.schema.json").read_text(encoding="utf-8"))
 EXAMPLES = re.findall(
     r"^\| `([^`]+)`[^|]* \| (\S+) \| (\S+), (\S+) \| (\S+) \| (0x\w+) \| (\S+) \|$", SECTION, re.MULTILINE
 )
@@ -24,14 +22,6 @@ def test_every_joint_is_told() -> None:
     told = {name for row in rows for name in re.findall(r"`([-a-z]+)`", row)}
 
     assert {kind.value for kind in JointKind} - {"none"} <= told
-
-
-def test_every_key_of_the_schema_is_told() -> None:
-    block = SCHEMA["properties"]["blocks"]["items"]["properties"]
-    nested = [*block["steps"]["items"]["properties"]]
-    nested += [key for name in ("in_force", "way") for key in block[name]["anyOf"][0]["properties"]]
-
-    assert [key for key in (*block, *nested) if not re.search(rf"`{key}(\[\])?`", SECTION)] == []
 
 
 def test_there_are_three_examples() -> None:

@@ -1,20 +1,32 @@
-"""Writes the schemas of files that users write, from the rows of keys: `make pages`."""
+"""Writes the schemas of files that users write, from the rows of keys, and of documents, from models: `make pages`."""
 
 import json
 from collections.abc import Iterator
 from pathlib import Path
 
+from controller.decode.model import DECODE
+from parser.documents.schema import schema_text
 from sim.check.settings.schema import settings_schema
+from sim.jobs.index_model import INDEX
+from sim.make.cam.document_model import PROGRAM
+from sim.run.ballbar.model import BALLBAR
+from sim.run.report.drawing_model import COMPARE
+from sim.run.report.model import REPORT
 from sim.setup.file_schemas import machine_schema, scenario_schema
+from sim.show.findings.model import CHECK
 
 DOCS = Path(__file__).parents[2] / "docs"
+DOCUMENTS = (BALLBAR, CHECK, COMPARE, DECODE, INDEX, PROGRAM, REPORT)
 
 
 def pages() -> Iterator[tuple[Path, str]]:
     """Each file of a schema, and what it is to hold."""
-    made = {"scenario": scenario_schema(), "machine": machine_schema(), "settings": settings_schema()}
-    for name, schema in made.items():
+    written = {"scenario": scenario_schema(), "machine": machine_schema(), "settings": settings_schema()}
+    for name, schema in written.items():
         yield DOCS / f"{name}.schema.json", json.dumps(schema, indent=2, ensure_ascii=False) + "\n"
+    for document in DOCUMENTS:
+        name = document.name.removeprefix("drycut.").partition("/")[0]
+        yield DOCS / f"{name}.schema.json", schema_text(document)
 
 
 if __name__ == "__main__":

@@ -4,7 +4,8 @@ What each figure of a made program comes to: blocks, length and time, and the ti
 """
 
 import json
-from typing import Any, Final, NamedTuple, Protocol
+import math
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
@@ -14,6 +15,21 @@ from parser.findings.catalogue import Language, Remark, remark_text, texts
 from parser.findings.findings import Finding
 from parser.shape.contours import runs
 from parser.toolpath import Toolpath
+from sim.base.rounded import known, place, rounded
+from sim.make.cam.document_model import (
+    DrawingFileEntry,
+    EntityEntry,
+    FigureEntry,
+    FindingEntry,
+    FitEntry,
+    LeftOutEntry,
+    PassEntry,
+    PiecesEntry,
+    ProgramDocument,
+    ProofEntry,
+    RefusalEntry,
+    WireEntry,
+)
 from sim.make.cam.maker import MadeProgram, NotMade
 from sim.make.cam.model import CutPlan, FigureCut, PassCut, Refusal
 from sim.make.cam.proof.target import Fault, Proof
@@ -72,10 +88,6 @@ def _timed(figure_sum: FigureSum, run: DryRun, rows: list[int], passes: int) -> 
     return figure_sum._replace(time_s=float(np.sum(time_s[first:past])), pass_s=told)
 
 
-SCHEMA: Final = "drycut.program/1"
-_DIGITS: Final = 6
-
-
 class Say(Protocol):
     """Words for people in one language, as `sim.show.texts.Words` has them: the text of a key, its places filled."""
 
@@ -87,7 +99,7 @@ class Say(Protocol):
         """Text of a key; KeyError where there is none."""
 
 
-def document(made: MadeProgram | NotMade, say: Say) -> dict[str, Any]:
+def document(made: MadeProgram | NotMade, say: Say) -> ProgramDocument:
     """What was made, or why nothing was, as plain lists, dicts, numbers and None; the order of keys is fixed.
 
     `say` has the texts of names in a language.
@@ -97,15 +109,15 @@ def document(made: MadeProgram | NotMade, say: Say) -> dict[str, Any]:
     proof = None if done is None else done.proof
     run = None if proof is None else proof.run
     return {
-        "schema": SCHEMA,
+        "schema": "drycut.program/1",
         "drycut": __version__,
         "made": done is not None,
         "drawing": None if plan is None else _drawing(plan),
         "fit": None if plan is None or plan.drawing.fit is None else _fit(plan.drawing.fit, plan.making.tolerance_um),
         "figures": [] if done is None else [*map(_figure, done.plan.cuts, figure_sums(done))],
         "left_out": [] if plan is None else [_left_out(each, say) for each in plan.left_out],
-        "length_um": None if done is None else _rounded(float(done.program.toolpath.length_um.sum())),
-        "time_s": None if run is None else _rounded(run.ran_s),
+        "length_um": None if done is None else rounded(float(done.program.toolpath.length_um.sum())),
+        "time_s": None if run is None else rounded(run.ran_s),
         "proof": None if proof is None else _proof(proof, say),
         "notes": [] if plan is None else [_note(note, say) for note in (*plan.drawing.notes, *plan.notes)],
         "refusal": _refusal(made.refusal, say) if isinstance(made, NotMade) else None,
@@ -117,16 +129,16 @@ def document_text(made: MadeProgram | NotMade, say: Say) -> str:
     return json.dumps(document(made, say), ensure_ascii=False, allow_nan=False, indent=2) + "\n"
 
 
-def _drawing(plan: CutPlan) -> dict[str, Any]:
+def _drawing(plan: CutPlan) -> DrawingFileEntry:
     return {"name": plan.drawing.name, "version": plan.drawing.version, "unit": plan.drawing.unit}
 
 
-def _fit(fit: FitFigures, asked_um: float) -> dict[str, Any]:
+def _fit(fit: FitFigures, asked_um: float) -> FitEntry:
     """The tolerance is that which is asked for: arcs may have been fitted nearer, so that the written path keeps it."""
-    return {**fit._asdict(), "tolerance_um": _rounded(asked_um), "max_um": _rounded(fit.max_um)}
+    return {"tolerance_um": rounded(asked_um), "max_um": rounded(fit.max_um), "arcs": fit.arcs, "lines": fit.lines}
 
 
-def _figure(cut: FigureCut, of: FigureSum) -> dict[str, Any]:
+def _figure(cut: FigureCut, of: FigureSum) -> FigureEntry:
     """A figure: blocks and length are those of the text, times those of the run."""
     figure, thread = cut.figure, cut.thread
     passes = (*cut.passes, *cut.cut_off)
@@ -137,9 +149,9 @@ def _figure(cut: FigureCut, of: FigureSum) -> dict[str, Any]:
         "part": figure.part,
         "layer": figure.layer,
         "blocks": [of.first_block, of.first_block + of.blocks - 1] if of.blocks else None,
-        "length_um": _rounded(of.length_um),
-        "time_s": None if of.time_s is None else _rounded(of.time_s),
-        "thread_um": _place(thread.place_um),
+        "length_um": rounded(of.length_um),
+        "time_s": known(of.time_s),
+        "thread_um": place(thread.place_um),
         "thread_by": thread.by,
         "side": cut.side.name.lower(),
         "direction": _direction(is_ccw=cut.is_ccw),
@@ -150,13 +162,13 @@ def _figure(cut: FigureCut, of: FigureSum) -> dict[str, Any]:
     }
 
 
-def _pass(cut: FigureCut, pass_cut: PassCut, time_s: float | None, *, is_cut_off: bool) -> dict[str, Any]:
+def _pass(cut: FigureCut, pass_cut: PassCut, time_s: float | None, *, is_cut_off: bool) -> PassEntry:
     return {
-        "offset_um": _rounded(pass_cut.by_um),
+        "offset_um": rounded(pass_cut.by_um),
         "direction": _direction(is_ccw=cut.is_ccw != pass_cut.is_back),
         "cut_off": is_cut_off,
-        "length_um": _rounded(float(pass_cut.along.length_um.sum())),
-        "time_s": None if time_s is None else _rounded(time_s),
+        "length_um": rounded(float(pass_cut.along.length_um.sum())),
+        "time_s": known(time_s),
     }
 
 
@@ -164,32 +176,35 @@ def _direction(*, is_ccw: bool) -> str:
     return "ccw" if is_ccw else "cw"
 
 
-def _left_out(left_out: LeftOut, say: Say) -> dict[str, Any]:
+def _left_out(left_out: LeftOut, say: Say) -> LeftOutEntry:
     return {
         "entity": _entity(left_out.entity),
         "why": left_out.why,
         "text": say(f"program.left-out-{left_out.why}"),
         "detail": None if left_out.detail is None else remark_text(left_out.detail, say.language),
-        "gap_um": None if left_out.gap_um is None else _rounded(left_out.gap_um),
-        "place_um": None if left_out.place_um is None else _place(left_out.place_um),
+        "gap_um": known(left_out.gap_um),
+        "place_um": None if left_out.place_um is None else place(left_out.place_um),
     }
 
 
-def _entity(entity: Entity) -> dict[str, Any]:
+def _entity(entity: Entity) -> EntityEntry:
     return {"kind": entity.kind, "handle": entity.handle, "layer": entity.layer}
 
 
-def _proof(proof: Proof, say: Say) -> dict[str, Any]:
+def _proof(proof: Proof, say: Say) -> ProofEntry:
+    edges = proof.comparison
     return {
         "verdict": proof.verdict,
-        "written_um": _rounded(proof.written_um),
-        "path_um": None if proof.path_um is None else _rounded(proof.path_um),
-        **_edges(proof),
+        "written_um": _finite(proof.written_um),
+        "path_um": _finite(proof.path_um),
+        "edge_to_drawing_um": None if edges is None else rounded(edges.edge_max_um),
+        "drawing_to_edge_um": None if edges is None else rounded(float(edges.drawing_to_edge.max_um.max())),
+        "tolerance_um": None if edges is None else rounded(edges.asked.tolerance_um),
         "pieces": _pieces(proof),
         "wire": _wire(proof.wire),
         "start_mm": None
         if proof.run is None or proof.run.scenario.start_mm is None
-        else _place(proof.run.scenario.start_mm),
+        else place(proof.run.scenario.start_mm),
         "findings": [
             *(_fault(fault, say) for fault in proof.faults),
             *(_finding(finding, say) for finding in proof.findings),
@@ -199,30 +214,18 @@ def _proof(proof: Proof, say: Say) -> dict[str, Any]:
     }
 
 
-def _edges(proof: Proof) -> dict[str, Any]:
-    """Both directions of the edge as cut, as ``drycut compare`` has them."""
-    found = proof.comparison
-    if found is None:
-        return {"edge_to_drawing_um": None, "drawing_to_edge_um": None, "tolerance_um": None}
-    return {
-        "edge_to_drawing_um": _rounded(found.edge_max_um),
-        "drawing_to_edge_um": _rounded(float(found.drawing_to_edge.max_um.max())),
-        "tolerance_um": _rounded(found.asked.tolerance_um),
-    }
-
-
-def _pieces(proof: Proof) -> dict[str, int] | None:
+def _pieces(proof: Proof) -> PiecesEntry | None:
     if proof.run is None or proof.run.remains is None:
         return None
     kinds = [piece.kind for piece in proof.run.remains.pieces.freed if not piece.is_scrap]
     return {"parts": kinds.count("part"), "slugs": kinds.count("slug")}
 
 
-def _wire(wire: Wire) -> dict[str, Any]:
-    return {"diameter_um": _rounded(wire.diameter_um), "spark_gap_um": _rounded(wire.spark_gap_um)}
+def _wire(wire: Wire) -> WireEntry:
+    return {"diameter_um": rounded(wire.diameter_um), "spark_gap_um": rounded(wire.spark_gap_um)}
 
 
-def _fault(fault: Fault, say: Say) -> dict[str, Any]:
+def _fault(fault: Fault, say: Say) -> FindingEntry:
     return {
         "code": None,
         "name": fault.name,
@@ -231,11 +234,11 @@ def _fault(fault: Fault, say: Say) -> dict[str, Any]:
         "figure": fault.figure or None,
         "block": fault.block or None,
         "line": None,
-        "place_um": None if fault.place_um is None else _place(fault.place_um),
+        "place_um": None if fault.place_um is None else place(fault.place_um),
     }
 
 
-def _finding(finding: Finding, say: Say) -> dict[str, Any]:
+def _finding(finding: Finding, say: Say) -> FindingEntry:
     at = finding.place_mm
     return {
         "code": finding.code,
@@ -245,7 +248,7 @@ def _finding(finding: Finding, say: Say) -> dict[str, Any]:
         "figure": None,
         "block": finding.block or None,
         "line": finding.line or None,
-        "place_um": None if at is None else _place((1000.0 * at[0], 1000.0 * at[1])),
+        "place_um": None if at is None else place((1000.0 * at[0], 1000.0 * at[1])),
     }
 
 
@@ -257,18 +260,14 @@ def _note(remark: Remark, say: Say) -> str:
         return say(f"program.note-{remark.name}", **remark.values)
 
 
-def _refusal(refusal: Refusal, say: Say) -> dict[str, Any]:
+def _refusal(refusal: Refusal, say: Say) -> RefusalEntry:
     return {
         "why": refusal.why,
         "text": say(f"program.refused-{refusal.why}", **dict(refusal.values)),
-        "places_um": [_place(place) for place in refusal.places_um],
+        "places_um": [place(at) for at in refusal.places_um],
     }
 
 
-def _place(place: tuple[float, float]) -> list[float | None]:
-    return [_rounded(place[0]), _rounded(place[1])]
-
-
-def _rounded(value: float) -> float | None:
-    """A number as JSON has it: None where it is none, no sign of a 0 that is rounding."""
-    return round(value, _DIGITS) + 0.0 if np.isfinite(value) else None
+def _finite(value: float | None) -> float | None:
+    """None where there is no distance, since there is no path."""
+    return rounded(value) if value is not None and math.isfinite(value) else None

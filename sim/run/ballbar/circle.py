@@ -5,7 +5,7 @@ A circular test as data, schema ``drycut.ballbar/1`` (docs/ballbar.md).
 
 import json
 from dataclasses import dataclass
-from typing import Any, Final, NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
 
@@ -17,7 +17,9 @@ from parser.geometry.curves import Floats
 from parser.program import parse_program
 from parser.units import from_mm, mm
 from sim.base.progress import Progress
+from sim.base.rounded import known, place, rounded
 from sim.run.ballbar.figures import NAMES, SENSES, Direction, Figures, MeasuredTurn, Sense, circularity, figures_of
+from sim.run.ballbar.model import BallbarDocument, FiguresEntry, LossEntry, PartsEntry, ReversalEntry, SenseEntry
 from sim.run.ballbar.parts import DeviationParts, Reversal, parts_of
 from sim.setup.machine.machine import Machine
 from sim.setup.toml.reader import Bound, number
@@ -198,25 +200,23 @@ def _motion(test: CircleTest, sense: Sense) -> Motion:
     return motion_of(toolpath, Feeds(test.feed_um_s, test.feed_um_s), test.machine, start_um, _SPACING_UM)
 
 
-SCHEMA: Final = "drycut.ballbar/1"
-_DIGITS: Final = 6
 _DEG_DIGITS: Final = 3
 
 
-def document(ballbar: Ballbar, tolerance_um: float | None) -> dict[str, Any]:
+def document(ballbar: Ballbar, tolerance_um: float | None) -> BallbarDocument:
     """The test as plain lists, dicts, numbers and None; the order of keys is fixed."""
     test, measured = ballbar.test, ballbar.measured
     return {
-        "schema": SCHEMA,
+        "schema": "drycut.ballbar/1",
         "drycut": __version__,
         "verdict": "pass" if ballbar.passes(tolerance_um) else "fail",
         "machine": test.machine.name,
         "interpolator": test.machine.controller.interpolation,
         "radius_um": test.radius_um,
-        "feed_um_s": _round(test.feed_um_s),
-        "planned_feed_um_s": _round(ballbar.run_um_s),
-        "tolerance_um": None if tolerance_um is None else _round(tolerance_um),
-        "circularity_um": None if measured is None else _round(measured.figures.circularity_um),
+        "feed_um_s": rounded(test.feed_um_s),
+        "planned_feed_um_s": rounded(ballbar.run_um_s),
+        "tolerance_um": known(tolerance_um),
+        "circularity_um": None if measured is None else rounded(measured.figures.circularity_um),
         "figures": None if measured is None else _figures(measured.figures),
         "parts": None if measured is None else _parts(measured.parts, measured.interpolation_um),
         "losses": [_loss(sense, loss) for sense, loss in ballbar.losses],
@@ -237,56 +237,57 @@ def trace_text(ballbar: Ballbar) -> str:
     return "turn,x_um,y_um\n" + "".join(rows)
 
 
-def _figures(figures: Figures) -> dict[str, Any]:
+def _figures(figures: Figures) -> FiguresEntry:
     return {
-        "mean_radial_um": _round(figures.mean_radial_um),
-        "hysteresis_um": _round(figures.hysteresis_um),
-        "center_um": [_round(place) for place in figures.center_um],
+        "mean_radial_um": rounded(figures.mean_radial_um),
+        "hysteresis_um": rounded(figures.hysteresis_um),
+        "center_um": place(figures.center_um),
         "ccw": _direction(figures.ccw),
         "cw": _direction(figures.cw),
     }
 
 
-def _direction(direction: Direction) -> dict[str, float]:
-    return {key: _round(value) for key, value in direction._asdict().items()}
-
-
-def _parts(parts: DeviationParts, interpolation_um: float) -> dict[str, Any]:
+def _direction(direction: Direction) -> SenseEntry:
     return {
-        "radius_ccw_um": _round(parts.radius_um[0]),
-        "radius_cw_um": _round(parts.radius_um[1]),
-        "step_x_um": _round(parts.step_um[0]),
-        "step_y_um": _round(parts.step_um[1]),
-        "diameters_um": _round(parts.diameters_um),
-        "lag_um": _round(parts.lag_um),
-        "interpolation_um": _round(interpolation_um),
-        "rest_um": _round(parts.rest_um),
+        "circularity_um": rounded(direction.circularity_um),
+        "radial_max_um": rounded(direction.radial_max_um),
+        "radial_min_um": rounded(direction.radial_min_um),
+        "mean_radius_um": rounded(direction.mean_radius_um),
+    }
+
+
+def _parts(parts: DeviationParts, interpolation_um: float) -> PartsEntry:
+    return {
+        "radius_ccw_um": rounded(parts.radius_um[0]),
+        "radius_cw_um": rounded(parts.radius_um[1]),
+        "step_x_um": rounded(parts.step_um[0]),
+        "step_y_um": rounded(parts.step_um[1]),
+        "diameters_um": rounded(parts.diameters_um),
+        "lag_um": rounded(parts.lag_um),
+        "interpolation_um": rounded(interpolation_um),
+        "rest_um": rounded(parts.rest_um),
         "reversals": [_reversal(reversal) for reversal in parts.reversals],
     }
 
 
-def _reversal(reversal: Reversal) -> dict[str, Any]:
+def _reversal(reversal: Reversal) -> ReversalEntry:
     return {
         "direction": NAMES[reversal.sense],
         "axis": reversal.axis.name,
         "side": reversal.side,
-        "step_um": _round(reversal.step_um),
-        "spike_um": _round(reversal.spike_um),
+        "step_um": rounded(reversal.step_um),
+        "spike_um": rounded(reversal.spike_um),
         "spike_deg": None if reversal.spike_deg is None else round(reversal.spike_deg, _DEG_DIGITS),
     }
 
 
-def _loss(sense: Sense, loss: Loss) -> dict[str, Any]:
+def _loss(sense: Sense, loss: Loss) -> LossEntry:
     return {
         "direction": NAMES[sense],
         "kind": loss.kind,
         "axis": loss.axis.name,
-        "t_s": _round(loss.t_s),
-        "amount_um": _round(loss.amount_um),
-        "x_um": _round(loss.x_um),
-        "y_um": _round(loss.y_um),
+        "t_s": rounded(loss.t_s),
+        "amount_um": rounded(loss.amount_um),
+        "x_um": rounded(loss.x_um),
+        "y_um": rounded(loss.y_um),
     }
-
-
-def _round(value: float) -> float:
-    return round(float(value), _DIGITS) + 0.0

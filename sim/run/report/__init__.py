@@ -1,5 +1,5 @@
 """``report.json``: the run as data, schema ``drycut.report/1`` (docs/report.md)."""
 
-from sim.run.report.document import SCHEMA, build_report, report_text
+from sim.run.report.document import build_report, report_text
 
-__all__ = ["SCHEMA", "build_report", "report_text"]
+__all__ = ["build_report", "report_text"]

@@ -8,7 +8,8 @@ Entries of the report on each block.
 """
 
 import json
-from typing import Any
+from collections.abc import Mapping
+from typing import Any, cast
 
 import numpy as np
 
@@ -20,7 +21,7 @@ from parser.findings.findings import Finding
 from parser.geometry.curves import CurveKind, Floats
 from parser.shape.contours import Contour
 from parser.toolpath import Toolpath
-from sim.base.rounded import DEG_DIGITS, column, moment, points, rounded, rows
+from sim.base.rounded import DEG_DIGITS, column, moment, place, points, rounded, rows
 from sim.check.result import Coverage
 from sim.measure.compare.result import Comparison
 from sim.measure.passes.figures import PassFigures
@@ -29,14 +30,28 @@ from sim.measure.threadings import Threading, threadings
 from sim.run.dryrun import DryRun, assumptions_of
 from sim.run.findings import verdict
 from sim.run.report.drawing import comparison_document
+from sim.run.report.drawing_model import ComparisonEntry
 from sim.run.report.figures import deviation_entries, ended_entry, limit_entry, loss_entry, offset_entry
+from sim.run.report.model import (
+    AssumptionsEntry,
+    BlockEntry,
+    CoverageEntry,
+    FindingEntry,
+    HeaderEntry,
+    MachineEntry,
+    NoHeaderEntry,
+    ReportDocument,
+    SteppedEntry,
+    TableEntry,
+)
 from sim.run.report.remains import remains_entry
+from sim.run.report.run_model import ContourEntry, InterpolatorEntry, PassEntry, StockEntry, ThreadPointEntry
 from sim.setup.scenario import Scenario
 
 _CURVES = (None, "convex", "concave")
 
 
-def block_entries(run: DryRun) -> list[dict[str, Any]]:
+def block_entries(run: DryRun) -> list[BlockEntry]:
     """All of ``blocks[]``."""
     toolpath = run.toolpath
     columns = {
@@ -46,12 +61,12 @@ def block_entries(run: DryRun) -> list[dict[str, Any]]:
         "text": [toolpath.source.text[low:high] for low, high in toolpath.source.span.tolist()],
         "kind": [CurveKind(kind).name.lower() for kind in toolpath.kind.tolist()],
         **_words(toolpath),
-        "exact": rows(_exact(toolpath)),
-        "stepped": rows(_stepped(run)),
-        "table": rows({"max_deviation_um": column(run.deviations.table.by_row_um)}),
+        "exact": rows(dict, _exact(toolpath)),
+        "stepped": rows(SteppedEntry, _stepped(run)),
+        "table": rows(TableEntry, {"max_deviation_um": column(run.deviations.table.by_row_um)}),
         "printed_end_um": points(toolpath.printed_end_um),
     }
-    return rows(columns)
+    return rows(BlockEntry, columns)
 
 
 def _words(toolpath: Toolpath) -> dict[str, list[Any]]:
@@ -92,18 +107,18 @@ def _stepped(run: DryRun) -> dict[str, list[Any]]:
     }
 
 
-def thread_entries(run: DryRun) -> list[dict[str, Any]]:
+def thread_entries(run: DryRun) -> list[ThreadPointEntry]:
     """All of ``thread_points[]``; times are None where the run ended before."""
     return [_thread(threading, run) for threading in threadings(run.toolpath, run.border_s)]
 
 
-def _thread(threading: Threading, run: DryRun) -> dict[str, Any]:
+def _thread(threading: Threading, run: DryRun) -> ThreadPointEntry:
     begins, ends = threading.at_s <= run.ran_s, run.ended is None or threading.last < run.ended.row
     return {
         "blocks": [threading.first + 1, threading.last + 1],
-        "at_um": [rounded(along) for along in threading.at_um],
+        "at_um": place(threading.at_um),
         "at_s": moment(threading.at_s, run.ran_s) if begins else None,
-        "out_um": [rounded(along) for along in threading.out_um],
+        "out_um": place(threading.out_um),
         "out_s": moment(threading.out_s, run.ran_s) if ends else None,
         "left_um": rounded(threading.left_um),
         "right_um": rounded(threading.right_um),
@@ -112,12 +127,12 @@ def _thread(threading: Threading, run: DryRun) -> dict[str, Any]:
     }
 
 
-def pass_entries(run: DryRun) -> list[dict[str, Any]]:
+def pass_entries(run: DryRun) -> list[PassEntry]:
     """All of ``passes[]``."""
     return [_pass(figures, run.scenario.wire.reach_um) for figures in run.pass_figures]
 
 
-def _pass(figures: PassFigures, reach_um: float) -> dict[str, Any]:
+def _pass(figures: PassFigures, reach_um: float) -> PassEntry:
     pass_, worst = figures.of, figures.worst
     return {
         "contour": pass_.edge + 1,
@@ -131,28 +146,25 @@ def _pass(figures: PassFigures, reach_um: float) -> dict[str, Any]:
         "stock_um": _stock(figures.stock),
         "deviation": {
             "max_um": 0.0 if worst is None else rounded(worst.deviation_um),
-            "where_um": None if worst is None else [rounded(along) for along in worst.place_um],
+            "where_um": None if worst is None else place(worst.place_um),
         },
     }
 
 
-def _stock(stock: Stock | None) -> dict[str, float] | None:
+def _stock(stock: Stock | None) -> StockEntry | None:
     if stock is None:
         return None
     return {"least": rounded(stock.least_um), "most": rounded(stock.most_um), "mean": rounded(stock.mean_um)}
 
 
-SCHEMA = "drycut.report/1"
-
-
-def build_report(run: DryRun) -> dict[str, Any]:
+def build_report(run: DryRun) -> ReportDocument:
     """Report of a run as plain lists, dicts, numbers and None; the order of keys is fixed.
 
     ``card`` is of a program for the card, and filled by who ran it.
     """
     scenario, toolpath = run.scenario, run.toolpath
     return {
-        "schema": SCHEMA,
+        "schema": "drycut.report/1",
         "drycut": __version__,
         "verdict": verdict(run.findings),
         "program": {
@@ -161,7 +173,7 @@ def build_report(run: DryRun) -> dict[str, Any]:
             "provenance": scenario.provenance,
             "encoding": run.program.encoding,
             "dialect": run.program.reading.dialect,
-            "header": {key: _header_value(value) for key, value in run.program.header.items()},
+            "header": _header(run.program.header),
         },
         "machine": _machine(scenario),
         "assumptions": _assumptions(run),
@@ -178,7 +190,7 @@ def build_report(run: DryRun) -> dict[str, Any]:
             "length_um": rounded(run.ran_um),
             "steps": len(run.stepped),
         },
-        "time_s": {"total": rounded(run.ran_s), "by_block": column(run.block_time_s)},
+        "time_s": {"total": rounded(run.ran_s), "by_block": [rounded(time_s) for time_s in run.block_time_s.tolist()]},
         "ended": ended_entry(run),
         "contours": [_contour(contour, run.block_time_s) for contour in run.whole_contours],
         "thread_points": thread_entries(run),
@@ -197,7 +209,7 @@ def build_report(run: DryRun) -> dict[str, Any]:
     }
 
 
-def report_text(report: dict[str, Any]) -> str:
+def report_text(report: Mapping[str, Any]) -> str:
     """The report as JSON text, one line for each entry and for each member of a list of entries; no NaN.
 
     Compact lines keep to json's fast encoder; indenting a hundred thousand blocks takes ten times as long.
@@ -205,15 +217,15 @@ def report_text(report: dict[str, Any]) -> str:
     return "{\n" + ",\n".join(f"{_line(key)}: {_lines(value)}" for key, value in report.items()) + "\n}\n"
 
 
-def _machine(scenario: Scenario) -> dict[str, Any]:
+def _machine(scenario: Scenario) -> MachineEntry:
     return {
         "name": scenario.machine.name,
         "engine": scenario.machine.engine,
-        "start_um": [rounded(place) for place in scenario.start_um],
+        "start_um": place(scenario.start_um),
     }
 
 
-def _assumptions(run: DryRun) -> dict[str, Any]:
+def _assumptions(run: DryRun) -> AssumptionsEntry:
     found = assumptions_of(run)
     return {
         "program": [each.entry("en") for each in found.program],
@@ -224,18 +236,16 @@ def _assumptions(run: DryRun) -> dict[str, Any]:
     }
 
 
-def _drawing(comparison: Comparison | None) -> dict[str, Any] | None:
+def _drawing(comparison: Comparison | None) -> ComparisonEntry | None:
     """``drawing``: the comparison as ``drycut compare --json`` has it, without what the report or the kerf says."""
     if comparison is None:
         return None
-    return {
-        key: value
-        for key, value in comparison_document(comparison).items()
-        if key not in ("schema", "drycut", "offset_um")
-    }
+    keys = ComparisonEntry.__annotations__
+    found = {key: value for key, value in comparison_document(comparison).items() if key in keys}
+    return cast("ComparisonEntry", found)
 
 
-def finding_entry(finding: Finding) -> dict[str, Any]:
+def finding_entry(finding: Finding) -> FindingEntry:
     """One entry of ``findings[]``, its texts in English."""
     said = texts(finding)
     return {
@@ -253,6 +263,11 @@ def finding_entry(finding: Finding) -> dict[str, Any]:
     }
 
 
+def _header(header: Mapping[str, HeaderValue]) -> HeaderEntry | NoHeaderEntry:
+    """What the header lines say, whose names are those of the entry."""
+    return cast("HeaderEntry | NoHeaderEntry", {key: _header_value(value) for key, value in header.items()})
+
+
 def _header_value(value: HeaderValue) -> Any:
     """What a header says of one thing; None where it does not say it."""
     if isinstance(value, tuple):
@@ -260,7 +275,7 @@ def _header_value(value: HeaderValue) -> Any:
     return rounded(value) if isinstance(value, float) else value or None
 
 
-def _coverage(coverage: Coverage) -> dict[str, Any]:
+def _coverage(coverage: Coverage) -> CoverageEntry:
     return {
         "blocks": {
             "found": coverage.found,
@@ -275,7 +290,7 @@ def _coverage(coverage: Coverage) -> dict[str, Any]:
     }
 
 
-def _interpolator(run: DryRun) -> dict[str, Any]:
+def _interpolator(run: DryRun) -> InterpolatorEntry:
     controller, sampling = run.scenario.machine.controller, run.deviations.sampling
     return {
         "name": controller.interpolation,
@@ -285,7 +300,7 @@ def _interpolator(run: DryRun) -> dict[str, Any]:
     }
 
 
-def _contour(contour: Contour, block_time_s: Floats) -> dict[str, Any]:
+def _contour(contour: Contour, block_time_s: Floats) -> ContourEntry:
     return {
         "first_block": contour.first,
         "last_block": contour.last,

@@ -1,7 +1,6 @@
 """Entries of the report on how the run went: the offset added, deviation by cause, limits met, and what was lost."""
 
 import math
-from typing import Any
 
 import numpy as np
 
@@ -13,17 +12,39 @@ from sim.measure.deviation.causes import Deviations, Part
 from sim.measure.deviation.deviation import Deviation, Where
 from sim.run.dryrun import DryRun
 from sim.run.ending import Ending
+from sim.run.report.run_model import (
+    CauseEntry,
+    DeviationEntry,
+    DeviationsEntry,
+    EndedEntry,
+    LimitEntry,
+    LossEntry,
+    OffsetBlockEntry,
+    OffsetEntry,
+    WhereEntry,
+)
 from sim.table.record.losses import Loss, Peak
 
 
-def deviation_entries(deviations: Deviations, ran_s: float) -> dict[str, Any]:
+def deviation_entries(deviations: Deviations, ran_s: float) -> DeviationsEntry:
     """``deviation`` in a run of `ran_s`: of steps, table and wire, and what each cause adds."""
-    kinds = ("interpolation", "steps", "table", "wire")
-    causes = {name: _part(part, ran_s) for name, part in deviations.by_cause._asdict().items()}
-    return {kind: _deviation(getattr(deviations, kind), ran_s) for kind in kinds} | {"by_cause": causes}
+    causes = deviations.by_cause
+    return {
+        "interpolation": _deviation(deviations.interpolation, ran_s),
+        "steps": _deviation(deviations.steps, ran_s),
+        "table": _deviation(deviations.table, ran_s),
+        "wire": _deviation(deviations.wire, ran_s),
+        "by_cause": {
+            "interpolation": _part(causes.interpolation, ran_s),
+            "carried": _part(causes.carried, ran_s),
+            "planning": _part(causes.planning, ran_s),
+            "table": _part(causes.table, ran_s),
+            "wire": _part(causes.wire, ran_s),
+        },
+    }
 
 
-def _deviation(deviation: Deviation, ran_s: float) -> dict[str, Any]:
+def _deviation(deviation: Deviation, ran_s: float) -> DeviationEntry:
     return {
         "max_um": rounded(deviation.max_um),
         "rms_um": rounded(deviation.rms_um),
@@ -32,18 +53,18 @@ def _deviation(deviation: Deviation, ran_s: float) -> dict[str, Any]:
     }
 
 
-def _part(part: Part, ran_s: float) -> dict[str, Any]:
+def _part(part: Part, ran_s: float) -> CauseEntry:
     return {"max_um": rounded(part.max_um), "where": _where(part.where, ran_s)}
 
 
-def _where(where: Where | None, ran_s: float) -> dict[str, Any] | None:
+def _where(where: Where | None, ran_s: float) -> WhereEntry | None:
     if where is None:
         return None
     x, y = rounded(where.x_um), rounded(where.y_um)
     return {"block": where.block, "x_um": x, "y_um": y, "t_s": moment(where.t_s, ran_s)}
 
 
-def limit_entry(peak: Peak, ran_s: float) -> dict[str, Any]:
+def limit_entry(peak: Peak, ran_s: float) -> LimitEntry:
     """One entry of ``limits[]`` of a run of `ran_s`: force N, speed µm/s, lag µm."""
     limited = math.isfinite(peak.limit)
     return {
@@ -56,24 +77,24 @@ def limit_entry(peak: Peak, ran_s: float) -> dict[str, Any]:
     }
 
 
-def loss_entry(loss: Loss, ran_s: float) -> dict[str, Any]:
+def loss_entry(loss: Loss, ran_s: float) -> LossEntry:
     """One entry of ``losses[]`` of a run of `ran_s`."""
     return {"kind": loss.kind, "axis": loss.axis.name, "amount_um": rounded(loss.amount_um), **_met(loss, ran_s)}
 
 
-def ended_entry(run: DryRun) -> dict[str, Any] | None:
+def ended_entry(run: DryRun) -> EndedEntry | None:
     """``ended``; None where the program ran to its end."""
     ended = run.ended
     return ended and {"cause": ended.cause, "axis": ended.axis.name, **_met(ended, ended.t_s)}
 
 
-def _met(event: Peak | Loss | Ending, ran_s: float) -> dict[str, Any]:
+def _met(event: Peak | Loss | Ending, ran_s: float) -> WhereEntry:
     """Block, time and place of what happened in a run of `ran_s`."""
     x, y = rounded(event.x_um), rounded(event.y_um)
     return {"block": event.row + 1, "t_s": moment(event.t_s, ran_s), "x_um": x, "y_um": y}
 
 
-def offset_entry(run: DryRun) -> dict[str, Any] | None:
+def offset_entry(run: DryRun) -> OffsetEntry | None:
     """``offset``; None where the program ran as written."""
     made = run.offset
     if made is None:
@@ -113,10 +134,11 @@ def offset_entry(run: DryRun) -> dict[str, Any] | None:
     }
 
 
-def _blocks(made: Offsetting, of_row: Ints) -> list[dict[str, Any]]:
+def _blocks(made: Offsetting, of_row: Ints) -> list[OffsetBlockEntry]:
     curves = made.path.curves
     arc = curves.is_arc
     return rows(
+        OffsetBlockEntry,
         {
             "block": list(range(1, len(curves) + 1)),
             "source_block": of_row.tolist(),
@@ -128,5 +150,5 @@ def _blocks(made: Offsetting, of_row: Ints) -> list[dict[str, Any]]:
             "center_um": points(curves.center_um),
             "radius_um": column(curves.radius_um),
             "sweep_deg": column(np.where(arc, np.degrees(curves.sweep_rad), np.nan), DEG_DIGITS),
-        }
+        },
     )

@@ -1,14 +1,12 @@
 """Entries of the report on what a cut leaves: kerf, frame, pieces and sizes."""
 
 import math
-from collections.abc import Iterable
-from typing import Any
 
 import numpy as np
 import shapely
 
 from parser.toolpath import Point
-from sim.base.rounded import column, known, moment, points, rounded, rows
+from sim.base.rounded import column, corners, known, moment, place, rounded, rows
 from sim.cut.kerf.edges import Range
 from sim.cut.kerf.swept import Kerf
 from sim.cut.pieces.pieces import Frame, Piece
@@ -16,11 +14,24 @@ from sim.cut.play.freedom import Play
 from sim.cut.remains import Remains
 from sim.cut.sizes.sizes import BoxSize, DistanceSize, RadiusSize, Sizes
 from sim.run.outlines import simpler
+from sim.run.report.cut_model import (
+    BoxEntry,
+    DistanceEntry,
+    FrameEntry,
+    KerfBlockEntry,
+    KerfEntry,
+    PieceEntry,
+    PlayEntry,
+    RadiusEntry,
+    RangeEntry,
+    RemainsEntry,
+    SizesEntry,
+)
 
 _OUTLINE_UM = 1.0  # one step, as exact as the cut is known anyway
 
 
-def remains_entry(remains: Remains | None, ran_s: float) -> dict[str, Any] | None:
+def remains_entry(remains: Remains | None, ran_s: float) -> RemainsEntry | None:
     """``remains`` of a run of `ran_s`; None where nobody asked for it."""
     if remains is None:
         return None
@@ -34,20 +45,21 @@ def remains_entry(remains: Remains | None, ran_s: float) -> dict[str, Any] | Non
     }
 
 
-def _kerf(kerf: Kerf) -> dict[str, Any]:
+def _kerf(kerf: Kerf) -> KerfEntry:
     number = list(range(1, len(kerf.width.mean_um) + 1))
-    sides = {"left_um": kerf.left, "right_um": kerf.right, "width_um": kerf.width}
+    sides = {"left_um": _ranges(kerf.left), "right_um": _ranges(kerf.right), "width_um": _ranges(kerf.width)}
     return {
         "area_mm2": rounded(kerf.area_mm2),
-        "blocks": rows({"block": number, **{name: rows(_range(side)) for name, side in sides.items()}}),
+        "blocks": rows(KerfBlockEntry, {"block": number, **sides}),
     }
 
 
-def _range(side: Range) -> dict[str, list[Any]]:
-    return {"mean": column(side.mean_um), "min": column(side.min_um), "max": column(side.max_um)}
+def _ranges(side: Range) -> list[RangeEntry]:
+    columns = {"mean": column(side.mean_um), "min": column(side.min_um), "max": column(side.max_um)}
+    return rows(RangeEntry, columns)
 
 
-def _frame(frame: Frame) -> dict[str, Any]:
+def _frame(frame: Frame) -> FrameEntry:
     return {
         "area_mm2": known(frame.area_mm2),
         "mass_g": known(frame.mass_g),
@@ -55,21 +67,21 @@ def _frame(frame: Frame) -> dict[str, Any]:
     }
 
 
-def _piece(piece: Piece, play: Play, ran_s: float) -> dict[str, Any]:
+def _piece(piece: Piece, play: Play, ran_s: float) -> PieceEntry:
     freed, bridge = piece.freed, piece.bridge
     return {
         "kind": piece.kind,
         "area_mm2": rounded(piece.area_mm2),
         "mass_g": rounded(piece.mass_g),
-        "center_um": _place(piece.center_um),
+        "center_um": place(piece.center_um),
         "freed": {
             "contour": freed.contour,
             "block": freed.block,
             "t_s": moment(freed.t_s, ran_s),
-            "wire_um": _place(freed.wire_um),
+            "wire_um": place(freed.wire_um),
         },
         "bridge": {
-            "place_um": _place(bridge.place_um),
+            "place_um": place(bridge.place_um),
             "closes_on_block": bridge.closes_on_block,
             "left_um": rounded(bridge.left_um),
             "last_mm_block": bridge.last_mm_block,
@@ -84,7 +96,7 @@ def _piece(piece: Piece, play: Play, ran_s: float) -> dict[str, Any]:
     }
 
 
-def _play(play: Play) -> dict[str, Any]:
+def _play(play: Play) -> PlayEntry:
     pinch = play.pinch
     return {
         "shifts": [
@@ -93,7 +105,7 @@ def _play(play: Play) -> dict[str, Any]:
         ],
         "turns": [{"by_deg": _finite(turn.by_deg), "touches_um": _touched(turn.touches_um)} for turn in play.turns],
         "pinch": {
-            "wall_um": _place(pinch.wall_um),
+            "wall_um": place(pinch.wall_um),
             "width_um": rounded(pinch.width_um),
             "narrowest_um": rounded(pinch.narrowest_um),
             "pinches": pinch.pinches,
@@ -103,7 +115,7 @@ def _play(play: Play) -> dict[str, Any]:
     }
 
 
-def _sizes(sizes: Sizes) -> dict[str, Any]:
+def _sizes(sizes: Sizes) -> SizesEntry:
     return {
         "boxes": [_box(box) for box in sizes.boxes],
         "radii": [_radius(radius) for radius in sizes.radii],
@@ -111,28 +123,28 @@ def _sizes(sizes: Sizes) -> dict[str, Any]:
     }
 
 
-def _box(box: BoxSize) -> dict[str, Any]:
+def _box(box: BoxSize) -> BoxEntry:
     return {
         "what": box.what,
         "piece": box.piece + 1,
-        "center_um": _place(box.center_um),
-        "cut_um": _place(box.cut_um),
-        "nominal_um": _place(box.nominal_um),
+        "center_um": place(box.center_um),
+        "cut_um": place(box.cut_um),
+        "nominal_um": place(box.nominal_um),
     }
 
 
-def _radius(radius: RadiusSize) -> dict[str, Any]:
+def _radius(radius: RadiusSize) -> RadiusEntry:
     return {
         "what": radius.what,
         "block": radius.block,
-        "center_um": _place(radius.center_um),
+        "center_um": place(radius.center_um),
         "cut_um": rounded(radius.cut_um),
         "nominal_um": rounded(radius.nominal_um),
         "form_um": rounded(radius.form_um),
     }
 
 
-def _distance(distance: DistanceSize) -> dict[str, Any]:
+def _distance(distance: DistanceSize) -> DistanceEntry:
     return {
         "what": distance.what,
         "blocks": list(distance.blocks),
@@ -141,18 +153,14 @@ def _distance(distance: DistanceSize) -> dict[str, Any]:
     }
 
 
-def _ring(ring: shapely.LinearRing) -> list[list[float] | None]:
+def _ring(ring: shapely.LinearRing) -> list[list[float]]:
     """Corners of a closed outline, the first one once; of 100,000 some 1000 tell it to 1 µm."""
-    return points(np.asarray(simpler(ring, _OUTLINE_UM).coords)[:-1, :2])
-
-
-def _place(place: Iterable[float]) -> list[float]:
-    return [rounded(by) for by in place]
+    return corners(np.asarray(simpler(ring, _OUTLINE_UM).coords)[:-1, :2])
 
 
 def _finite(value: float) -> float | None:
     return rounded(value) if math.isfinite(value) else None
 
 
-def _touched(place: Point) -> list[float] | None:
-    return _place(place) if math.isfinite(place.x) else None
+def _touched(at: Point) -> list[float] | None:
+    return place(at) if math.isfinite(at.x) else None

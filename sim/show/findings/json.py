@@ -2,15 +2,27 @@
 
 import json
 from collections.abc import Iterable, Iterator
-from typing import Any
 
 from parser import __version__
+from parser.documents.fields import BlockCountsEntry
 from parser.findings.catalogue import Language, term, texts
+from parser.findings.codes import Severity
 from parser.findings.findings import Edit, Finding
-from sim.check.result import CheckResult, CheckState, Coverage
+from sim.check.programmed import Programmed
+from sim.check.result import CheckResult, CheckState, Coverage, Silenced
+from sim.show.findings.model import (
+    CheckEntry,
+    CoverageEntry,
+    EditEntry,
+    FileEntry,
+    FindingEntry,
+    ProgrammedEntry,
+    SilencedEntry,
+    TotalsEntry,
+)
 from sim.show.findings.options import Options
 from sim.show.findings.tidy import joined, spot, tidy
-from sim.show.findings.totals import BLOCKS, Totals
+from sim.show.findings.totals import Totals
 from sim.show.terminal.finding import message
 
 SCHEMA = "drycut.check/1"
@@ -25,7 +37,7 @@ def render(results: Iterable[CheckResult], options: Options) -> Iterator[str]:
     yield f'\n], "totals": {_dump(_totals(totals))}, "verdict": {_dump(totals.verdict)}}}\n'
 
 
-def _file(result: CheckResult, language: Language) -> dict[str, Any]:
+def _file(result: CheckResult, language: Language) -> FileEntry:
     return {
         "name": result.name,
         "encoding": result.encoding or None,
@@ -33,23 +45,48 @@ def _file(result: CheckResult, language: Language) -> dict[str, Any]:
         "assumptions": [assumption.entry(language) for assumption in result.assumptions],
         "verdict": result.verdict,
         "settings_file": result.settings_file or None,
-        "silenced": result.silenced._asdict(),
+        "silenced": _silenced(result.silenced),
         "coverage": _coverage(result.coverage, language),
         "length_um": result.length_um,
         "steps": result.steps,
-        "programmed": result.programmed and result.programmed._asdict(),
+        "programmed": result.programmed and _programmed(result.programmed),
         "findings": [_finding(result, finding, language) for finding in result.findings],
     }
 
 
-def _coverage(coverage: Coverage, language: Language) -> dict[str, Any]:
+def _coverage(coverage: Coverage, language: Language) -> CoverageEntry:
     return {
-        "blocks": {name: getattr(coverage, name) for name in BLOCKS},
+        "blocks": _block_counts(coverage),
         "checks": [_check(check, language) for check in coverage.checks],
     }
 
 
-def _check(check: CheckState, language: Language) -> dict[str, Any]:
+def _block_counts(counts: Coverage) -> BlockCountsEntry:
+    return {"found": counts.found, "read": counts.read, "decoded": counts.decoded, "stepped": counts.stepped}
+
+
+def _silenced(silenced: Silenced) -> SilencedEntry:
+    return {
+        "options": silenced.options,
+        "settings": silenced.settings,
+        "remarks": silenced.remarks,
+        "baseline": silenced.baseline,
+    }
+
+
+def _programmed(programmed: Programmed) -> ProgrammedEntry:
+    return {
+        "lines": programmed.lines,
+        "arcs": programmed.arcs,
+        "rapids": programmed.rapids,
+        "cut_length_um": programmed.cut_length_um,
+        "box_um": programmed.box_um and list(programmed.box_um),
+        "first_um": programmed.first_um and list(programmed.first_um),
+        "last_um": programmed.last_um and list(programmed.last_um),
+    }
+
+
+def _check(check: CheckState, language: Language) -> CheckEntry:
     return {
         "name": check.name,
         "title": term(check.name, language),
@@ -59,7 +96,7 @@ def _check(check: CheckState, language: Language) -> dict[str, Any]:
     }
 
 
-def _finding(result: CheckResult, finding: Finding, language: Language) -> dict[str, Any]:
+def _finding(result: CheckResult, finding: Finding, language: Language) -> FindingEntry:
     of = texts(finding, language)
     at = spot(finding, result.excerpts)
     return {
@@ -76,24 +113,39 @@ def _finding(result: CheckResult, finding: Finding, language: Language) -> dict[
         "end_column": at.end_column or None,
         "block": finding.block or None,
         "block_name": finding.block_name or None,
-        "values": finding.values,
+        "values": dict(finding.values),
         "fixable": bool(finding.edits),
         "edits": [_edit(edit) for edit in finding.edits],
     }
 
 
-def _edit(edit: Edit) -> dict[str, Any]:
-    return edit._asdict()
+def _edit(edit: Edit) -> EditEntry:
+    return {"first": edit.first, "past": edit.past, "text": edit.text}
 
 
-def _totals(totals: Totals) -> dict[str, Any]:
+def _totals(totals: Totals) -> TotalsEntry:
+    severities = totals.by_severity()
     return {
-        "files": {"checked": totals.files.total(), **totals.by_verdict()},
-        "findings": {severity.value: count for severity, count in totals.by_severity().items()},
+        "files": {
+            "checked": totals.files.total(),
+            "pass": totals.files["pass"],
+            "fail": totals.files["fail"],
+            "incomplete": totals.files["incomplete"],
+        },
+        "findings": {
+            "error": severities[Severity.ERROR],
+            "warning": severities[Severity.WARNING],
+            "note": severities[Severity.NOTE],
+        },
         "codes": totals.codes,
         "fixable": totals.fixable,
-        "silenced": totals.silenced._asdict(),
-        "blocks": {name: totals.blocks[name] for name in BLOCKS},
+        "silenced": _silenced(totals.silenced),
+        "blocks": {
+            "found": totals.blocks["found"],
+            "read": totals.blocks["read"],
+            "decoded": totals.blocks["decoded"],
+            "stepped": totals.blocks["stepped"],
+        },
         "length_um": totals.length_um,
         "steps": totals.steps,
     }

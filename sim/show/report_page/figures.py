@@ -1,8 +1,8 @@
 """The verdict in a sentence, and key figures: what each is called, its value in the report, and a word beside it."""
 
 from collections import Counter
-from collections.abc import Iterator, Mapping
-from typing import Any, NamedTuple
+from collections.abc import Iterator
+from typing import NamedTuple
 
 from parser.findings.catalogue import LANGUAGES, Bilingual, length, texts
 from parser.findings.codes import Severity
@@ -10,6 +10,7 @@ from parser.findings.findings import Finding
 from parser.units import mm, mm_text
 from sim.run.dryrun import DryRun
 from sim.run.findings import verdict
+from sim.run.report.model import ReportDocument
 from sim.show.report_page.tables import reached
 from sim.show.texts import bilingual
 from sim.show.texts.phrases import catalogued, lasting, listed, machine_name, numbered, same
@@ -47,7 +48,7 @@ def why(run: DryRun) -> list[Bilingual]:
     return [_first(run), *_ended(run), *_incomplete(run)]
 
 
-def key_figures(run: DryRun, report: Mapping[str, Any]) -> list[Figure]:
+def key_figures(run: DryRun, report: ReportDocument) -> list[Figure]:
     """The figures that stand at the top of the page."""
     return [
         *_size(run, report),
@@ -60,7 +61,7 @@ def key_figures(run: DryRun, report: Mapping[str, Any]) -> list[Figure]:
     ]
 
 
-def time_figures(report: Mapping[str, Any]) -> list[Figure]:
+def time_figures(report: ReportDocument) -> list[Figure]:
     """The time estimate in its parts."""
     times = zip(report["time_s"]["by_block"], report["blocks"], strict=True)
     jumping = sum(time_s for time_s, block in times if block["kind"] == "jump")
@@ -101,12 +102,12 @@ def _incomplete(run: DryRun) -> list[Bilingual]:
     return [bilingual("report.incomplete", checks=listed(map(catalogued, names)))] if names else []
 
 
-def _figure(name: str, report: Mapping[str, Any], entry: str, digits: int = 0, per: float = 1.0) -> Figure:
+def _figure(name: str, report: ReportDocument, entry: str, digits: int = 0, per: float = 1.0) -> Figure:
     value = reached(report, entry)
     return Figure(bilingual(f"report.{name}"), entry, value, same(f"{value / per:,.{digits}f}"))
 
 
-def _size(run: DryRun, report: Mapping[str, Any]) -> Iterator[Figure]:
+def _size(run: DryRun, report: ReportDocument) -> Iterator[Figure]:
     total = report["time_s"]["total"]
     machine, thickness_mm = machine_name(run.scenario.machine), report["work"]["thickness_mm"]
     work = bilingual("report.in-work", thickness=f"{thickness_mm:g}", machine=machine)
@@ -123,13 +124,13 @@ def _size(run: DryRun, report: Mapping[str, Any]) -> Iterator[Figure]:
     yield length._replace(unit="mm", beside=bilingual("report.jumps-included") if jumps else _NONE)
 
 
-def _steps(report: Mapping[str, Any]) -> Figure:
+def _steps(report: ReportDocument) -> Figure:
     return _figure("steps", report, "summary.steps")._replace(
         beside=bilingual(f"report.{report['interpolator']['name']}")
     )
 
 
-def _worst(run: DryRun, report: Mapping[str, Any]) -> Iterator[Figure]:
+def _worst(run: DryRun, report: ReportDocument) -> Iterator[Figure]:
     where = report["deviation"]["wire"]["where"]
     if where is not None:
         block = run.block_names.at(where["block"])
@@ -138,7 +139,7 @@ def _worst(run: DryRun, report: Mapping[str, Any]) -> Iterator[Figure]:
         yield figure._replace(unit="µm", beside=place)
 
 
-def _closure(run: DryRun, report: Mapping[str, Any]) -> Iterator[Figure]:
+def _closure(run: DryRun, report: ReportDocument) -> Iterator[Figure]:
     """The worst closure as stepped; open contours are worse than any that return."""
     closing = [at for at, contour in enumerate(run.whole_contours) if contour.encloses]
     if not closing:
@@ -155,20 +156,20 @@ def _closure(run: DryRun, report: Mapping[str, Any]) -> Iterator[Figure]:
     yield figure._replace(shown=same(stepped), unit=unit, beside=beside)
 
 
-def _pieces(report: Mapping[str, Any]) -> Iterator[Figure]:
+def _pieces(report: ReportDocument) -> Iterator[Figure]:
     if report["remains"] is not None:
         kinds = [piece["kind"] for piece in report["remains"]["pieces"]]
         beside = numbered({kind: kinds.count(kind) for kind in ("part", "slug")})
         yield Figure(bilingual("report.pieces"), "", len(kinds), same(len(kinds)), beside=beside)
 
 
-def _drawing(report: Mapping[str, Any]) -> Iterator[Figure]:
+def _drawing(report: ReportDocument) -> Iterator[Figure]:
     if report["drawing"] is not None:
         allowed = bilingual("report.allowed", tolerance=f"{report['drawing']['tolerance_um']:g}")
         yield _figure("off-drawing", report, "drawing.max_um", 2)._replace(unit="µm", beside=allowed)
 
 
-def _offset(report: Mapping[str, Any]) -> Iterator[Figure]:
+def _offset(report: ReportDocument) -> Iterator[Figure]:
     if report["offset"] is not None:
         side = bilingual(f"report.side-{report['offset']['side']}")
         by = ", ".join(f"{mm(each['by_um']):.3f}" for each in report["offset"]["passes"])

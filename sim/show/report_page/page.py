@@ -19,6 +19,7 @@ from sim.base.workers.makers import Maker, versions
 from sim.cut.pieces.pieces import Pieces
 from sim.run.dryrun import DryRun
 from sim.run.recording import NO_PIECES
+from sim.run.report.model import ReportDocument
 from sim.setup.expectations import EXPECT, Expectation, wanted
 from sim.setup.key_words import title_of, value_word, words_of
 from sim.setup.machine.machine import Machine, machine_sections
@@ -185,7 +186,7 @@ _ASSETS: Final = Path(__file__).with_name("assets")
 
 def report_page(
     run: DryRun,
-    report: Mapping[str, Any],
+    report: ReportDocument,
     pictures: Sequence[Inline],
     pieces: Pieces = NO_PIECES,
     *,
@@ -231,7 +232,7 @@ def report_page(
     )
 
 
-def _tables(run: DryRun, report: Mapping[str, Any]) -> list[ReportTable]:
+def _tables(run: DryRun, report: ReportDocument) -> list[ReportTable]:
     remains, drawing, names = report["remains"], report["drawing"], run.block_names
     threads = report["thread_points"]
     return [

@@ -1,12 +1,13 @@
 """Tables of what a run came to: blocks, contours, deviations, limits and losses of the drives, checks."""
 
-from collections.abc import Mapping
-from typing import Any
+from typing import Any, cast
 
 from parser.findings.catalogue import LANGUAGES, Bilingual
 from parser.shape.contours import Contour
 from parser.text.source import BlockNames
 from sim.run.dryrun import DryRun
+from sim.run.report.model import ReportDocument
+from sim.run.report.run_model import CauseEntry, PassEntry
 from sim.show.report_page.findings import address
 from sim.show.report_page.tables import (
     Column,
@@ -29,7 +30,7 @@ CodeLink = tuple[str, str]
 _STAGES = ("interpolation", "steps", "table", "wire")
 
 
-def block_table(run: DryRun, report: Mapping[str, Any]) -> ReportTable:
+def block_table(run: DryRun, report: ReportDocument) -> ReportTable:
     """Every block of the run, as ``blocks[]`` of the report has it."""
     blocks = report["blocks"]
 
@@ -75,7 +76,7 @@ def _codes(run: DryRun) -> list[list[CodeLink]]:
     return [by_block.get(block, []) for block in run.toolpath.source.block.tolist()]
 
 
-def contour_table(run: DryRun, report: Mapping[str, Any]) -> ReportTable:
+def contour_table(run: DryRun, report: ReportDocument) -> ReportTable:
     """Contours with their closures and times."""
     entries = report["contours"]
     return ReportTable(
@@ -92,7 +93,7 @@ def contour_table(run: DryRun, report: Mapping[str, Any]) -> ReportTable:
     )
 
 
-def pass_table(run: DryRun, report: Mapping[str, Any]) -> ReportTable:
+def pass_table(run: DryRun, report: ReportDocument) -> ReportTable:
     """Passes over each edge, as ``passes[]`` of the report has them."""
     entries = report["passes"]
     return ReportTable(
@@ -115,7 +116,7 @@ def pass_table(run: DryRun, report: Mapping[str, Any]) -> ReportTable:
     )
 
 
-def _pass_kind(entry: Mapping[str, Any]) -> str:
+def _pass_kind(entry: PassEntry) -> str:
     if entry["cuts_tab"]:
         return "tab"
     return "trim" if entry["number"] > 1 else "rough"
@@ -127,9 +128,10 @@ def _state(contour: Contour) -> str:
     return "open" if contour.is_open else "closed"
 
 
-def deviation_table(run: DryRun, report: Mapping[str, Any]) -> ReportTable:
+def deviation_table(run: DryRun, report: ReportDocument) -> ReportTable:
     """Deviation of steps, table and wire."""
-    entries = [report["deviation"][stage] for stage in _STAGES]
+    deviation = report["deviation"]
+    entries = [deviation["interpolation"], deviation["steps"], deviation["table"], deviation["wire"]]
     return ReportTable(
         "deviation",
         (
@@ -142,16 +144,16 @@ def deviation_table(run: DryRun, report: Mapping[str, Any]) -> ReportTable:
     )
 
 
-def cause_table(run: DryRun, report: Mapping[str, Any]) -> ReportTable:
+def cause_table(run: DryRun, report: ReportDocument) -> ReportTable:
     """What each cause adds to the deviation."""
     causes = report["deviation"]["by_cause"]
-    entries = list(causes.values())
+    entries = cast("list[CauseEntry]", list(causes.values()))
     largest = micrometres("largest", column_of(entries, "max_um"))
     met = _met(run.block_names, entries, "where.")
     return ReportTable("causes", (worded("cause", tuple(causes), "by"), largest, *met))
 
 
-def limit_table(run: DryRun, report: Mapping[str, Any]) -> ReportTable:
+def limit_table(run: DryRun, report: ReportDocument) -> ReportTable:
     """How near the drives came to their limits."""
     entries = report["limits"]
     return ReportTable(
@@ -168,7 +170,7 @@ def limit_table(run: DryRun, report: Mapping[str, Any]) -> ReportTable:
     )
 
 
-def loss_table(run: DryRun, report: Mapping[str, Any]) -> ReportTable:
+def loss_table(run: DryRun, report: ReportDocument) -> ReportTable:
     """What the drives lost."""
     entries = report["losses"]
     what = worded("what", column_of(entries, "kind"))

@@ -1,7 +1,7 @@
 """The job sheet: what an operator takes to the machine, on one A4 page."""
 
-from collections.abc import Iterator, Mapping, Sequence
-from typing import Any, Final, NamedTuple
+from collections.abc import Iterator, Sequence
+from typing import Final, NamedTuple
 
 from parser.findings.catalogue import Bilingual
 from parser.text.source import BlockNames
@@ -9,9 +9,11 @@ from parser.units import mm, mm_text
 from sim.cut.pieces.pieces import Piece, Pieces
 from sim.run.dryrun import DryRun
 from sim.run.recording import NO_PIECES
+from sim.run.report.model import ReportDocument
+from sim.run.report.run_model import ThreadPointEntry
 from sim.setup.part import DEFAULT_DENSITY_G_CM3
 from sim.show.report_page.findings import ShownFinding, gravest_findings
-from sim.show.report_page.tables import Column, ReportTable, called, column_of, counted, millimetres, timed
+from sim.show.report_page.tables import Column, ReportTable, called, column_of, counted, millimetres, reached, timed
 from sim.show.texts import bilingual
 from sim.show.texts.phrases import lasting, listed, machine_name, numbered, same
 
@@ -60,7 +62,7 @@ class Sheet(NamedTuple):
     findings_more: int
 
 
-def sheet_of(run: DryRun, report: Mapping[str, Any], pieces: Pieces) -> Sheet:
+def sheet_of(run: DryRun, report: ReportDocument, pieces: Pieces) -> Sheet:
     """The sheet of a run; `report` is its ``report.json``, `pieces` are what its cut leaves, known without it too."""
     threads = report["thread_points"]
     gravest = gravest_findings(run, _MOST_FINDINGS)
@@ -73,7 +75,7 @@ def sheet_of(run: DryRun, report: Mapping[str, Any], pieces: Pieces) -> Sheet:
     )
 
 
-def thread_table(entries: list[dict[str, Any]], names: BlockNames) -> ReportTable:
+def thread_table(entries: list[ThreadPointEntry], names: BlockNames) -> ReportTable:
     """All thread points, where the sheet has no room for them."""
     return ReportTable(
         "threads",
@@ -89,12 +91,12 @@ def thread_table(entries: list[dict[str, Any]], names: BlockNames) -> ReportTabl
     )
 
 
-def _reach(side: str, entries: list[dict[str, Any]]) -> Column:
+def _reach(side: str, entries: list[ThreadPointEntry]) -> Column:
     head = bilingual(f"sheet.head-{side}")
     return Column(head, column_of(entries, f"{side}_um"), unit="mm", per=1000.0, digits=3)
 
 
-def _facts(run: DryRun, report: Mapping[str, Any], pieces: Pieces) -> Iterator[Fact]:
+def _facts(run: DryRun, report: ReportDocument, pieces: Pieces) -> Iterator[Fact]:
     wire, work = report["wire"], report["work"]
     sizes = {"diameter": f"{mm(wire['diameter_um']):g}", "gap": f"{wire['spark_gap_um']:g}"}
     yield Fact(bilingual("sheet.machine"), machine_name(run.scenario.machine))
@@ -112,16 +114,16 @@ def _work(thickness_mm: float, density_g_cm3: float) -> Bilingual:
     return bilingual(key, thickness=f"{thickness_mm:g}", density=f"{density_g_cm3:g}")
 
 
-def _offset(report: Mapping[str, Any]) -> Bilingual:
+def _offset(report: ReportDocument) -> Bilingual:
     offset = report["offset"]
     if offset is None:
-        within_um = report["program"]["header"].get("offset_um")
+        within_um = reached(report, "program.header").get("offset_um")
         return bilingual("sheet.offset-within", by=mm_text(within_um)) if within_um else bilingual("sheet.offset-none")
     by = ", ".join(f"{mm(each['by_um']):.3f}" for each in offset["passes"])
     return bilingual(f"sheet.offset-{offset['side']}", by=by)
 
 
-def _passes(report: Mapping[str, Any]) -> Bilingual:
+def _passes(report: ReportDocument) -> Bilingual:
     """How many over the contour with the most; their distances too where the program has them within its path."""
     found = report["passes"]
     most = max(found, key=lambda each: each["number"], default=None)
@@ -157,10 +159,10 @@ def _mass(mass_g: float) -> str:
     return f"{mass_g:,.1f} g" if mass_g >= 1.0 else f"{mass_g * 1e3:,.0f} mg"
 
 
-def _thread(entry: Mapping[str, Any], names: BlockNames) -> Thread:
+def _thread(entry: ThreadPointEntry, names: BlockNames) -> Thread:
     first, last = (names.at(number) for number in entry["blocks"])
     x, y, out_x, out_y = map(mm_text, (*entry["at_um"], *entry["out_um"]))
-    reach = tuple(mm_text(entry[f"{side}_um"]) for side in ("left", "right", "down", "up"))
+    reach = tuple(map(mm_text, (entry["left_um"], entry["right_um"], entry["down_um"], entry["up_um"])))
     blocks = first if first == last else f"{first}–{last}"
     return Thread(blocks, x, y, _after(entry["at_s"]), reach, out_x, out_y, _after(entry["out_s"]))
 

@@ -9,6 +9,8 @@ from typing import Any, Final, Literal, NamedTuple
 from parser.findings.catalogue import Bilingual
 from parser.text.source import BlockNames
 from parser.units import UM_PER_MM
+from sim.run.report.cut_model import BoxEntry, DistanceEntry, PieceEntry, RadiusEntry, ShiftEntry, SizesEntry
+from sim.run.report.drawing_model import CornerEntry, PlaceEntry
 from sim.show.html.packed import packed
 from sim.show.texts import bilingual
 
@@ -139,7 +141,7 @@ def _data(column: Column) -> dict[str, Any]:
     return column._asdict() | {"head": column.head._asdict(), "values": packed(column.values), "words": words}
 
 
-def piece_table(entries: list[dict[str, Any]], names: BlockNames) -> ReportTable:
+def piece_table(entries: list[PieceEntry], names: BlockNames) -> ReportTable:
     """Pieces in the order in which they come free."""
     return ReportTable(
         "pieces",
@@ -158,13 +160,13 @@ def piece_table(entries: list[dict[str, Any]], names: BlockNames) -> ReportTable
     )
 
 
-def _farthest(shifts: list[dict[str, Any]]) -> float | None:
+def _farthest(shifts: list[ShiftEntry]) -> float | None:
     """How far a piece shifts in the direction in which it can shift farthest; None where nothing is in the way."""
-    ways = [shift["by_um"] for shift in shifts]
-    return None if None in ways else max(ways)
+    ways = [shift["by_um"] for shift in shifts if shift["by_um"] is not None]
+    return None if len(ways) < len(shifts) else max(ways)
 
 
-def size_tables(sizes: Mapping[str, list[dict[str, Any]]], names: BlockNames) -> list[ReportTable]:
+def size_tables(sizes: SizesEntry, names: BlockNames) -> list[ReportTable]:
     """Widths, radii and distances of what is kept, as cut and nominal."""
     boxes, radii, distances = sizes["boxes"], sizes["radii"], sizes["distances"]
     return [
@@ -194,7 +196,7 @@ def size_tables(sizes: Mapping[str, list[dict[str, Any]]], names: BlockNames) ->
     ]
 
 
-def worst_table(entries: list[dict[str, Any]], names: BlockNames) -> ReportTable:
+def worst_table(entries: list[PlaceEntry], names: BlockNames) -> ReportTable:
     """Where edge and drawing are farthest apart."""
     return ReportTable(
         "worst",
@@ -209,7 +211,7 @@ def worst_table(entries: list[dict[str, Any]], names: BlockNames) -> ReportTable
     )
 
 
-def corner_table(entries: list[dict[str, Any]], names: BlockNames) -> ReportTable:
+def corner_table(entries: list[CornerEntry], names: BlockNames) -> ReportTable:
     """Sharp inside corners of the drawing that the wire cannot reach, and what it must leave in them."""
     return ReportTable(
         "corners",
@@ -224,11 +226,11 @@ def corner_table(entries: list[dict[str, Any]], names: BlockNames) -> ReportTabl
     )
 
 
-def _of_what(entries: list[dict[str, Any]]) -> tuple[Column, ...]:
+def _of_what(entries: Sequence[BoxEntry | RadiusEntry | DistanceEntry]) -> tuple[Column, ...]:
     return (worded("what", column_of(entries, "what")),)
 
 
-def _widths(boxes: list[dict[str, Any]]) -> list[Column]:
+def _widths(boxes: list[BoxEntry]) -> list[Column]:
     """As cut and nominal, along X and along Y."""
     return [
         millimetres(f"{head}-{axis}", column_of(boxes, f"{key}.{at}"))
@@ -237,6 +239,6 @@ def _widths(boxes: list[dict[str, Any]]) -> list[Column]:
     ]
 
 
-def _apart(entries: list[dict[str, Any]]) -> Column:
+def _apart(entries: Sequence[RadiusEntry | DistanceEntry]) -> Column:
     """As cut less nominal."""
     return micrometres("apart", [entry["cut_um"] - entry["nominal_um"] for entry in entries])

@@ -10,6 +10,7 @@ from parser.units import mm
 from sim.clients.run import ClientRun
 from sim.clients.session import Questions
 from sim.clients.started import Ended
+from sim.clients.table import card_document
 from sim.show.terminal.colours import painted, styled
 from sim.show.terminal.finding import finding_lines
 from sim.show.terminal.layout import paragraph, show, table
@@ -52,7 +53,7 @@ def _ended(ended: Ended, name: str, longest_s: float, words: Words) -> str:
 
 
 def _rows(done: ClientRun, words: Words) -> Iterator[tuple[str, str]]:
-    card, again, unseen = done.report["card"], done.read.again, done.read.unseen
+    card, again, unseen = card_document(done.read, done.ended), done.read.again, done.read.unseen
     counts = {"calls": f"{card['calls']:,}", "time": f"{card['time_s']:.3f}", "asked": f"{card['asked']:,}"}
     yield words("client.calls"), words("client.calls-of", **counts)
     if unseen.refused:

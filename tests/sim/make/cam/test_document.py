@@ -2,7 +2,6 @@
 
 import copy
 import json
-import re
 from collections.abc import Callable
 from dataclasses import replace
 from itertools import pairwise
@@ -136,16 +135,3 @@ def test_the_schema_is_strict(entry: dict[str, Any], spoil: Callable[[dict[str, 
     spoiled = copy.deepcopy(entry)
     spoil(spoiled)
     assert complaints(spoiled) != []
-
-
-def keys_of(schema: dict[str, Any]) -> set[str]:
-    """All keys that a schema names, at any depth."""
-    found = set(schema.get("properties", {}))
-    for value in schema.values():
-        for inner in value if isinstance(value, list) else [value]:
-            found |= keys_of(inner) if isinstance(inner, dict) else set()
-    return found
-
-
-def test_every_key_of_the_schema_is_told() -> None:
-    assert [key for key in sorted(keys_of(SCHEMA)) if not re.search(rf"`{key}(\[\])?`", PAGE)] == []

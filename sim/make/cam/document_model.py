@@ -1,0 +1,178 @@
+"""Model of ``drycut.program/1`` (docs/program.md)."""
+
+from typing import Annotated, Final, Literal, TypedDict
+
+from parser.documents.fields import (
+    BlockRange,
+    CheckVerdict,
+    Code,
+    Count,
+    Ordinal,
+    Point,
+    Positive,
+    Sense,
+    SeverityName,
+    Size,
+    Slug,
+    Text,
+    Version,
+    of_length,
+    one_of,
+)
+from parser.documents.schema import Document, Law
+
+_NOTHING: Final = {"maxItems": 0}
+
+
+class DrawingFileEntry(TypedDict):
+    """The drawing: its file, DXF version and unit."""
+
+    name: Text
+    version: str
+    unit: Text
+
+
+class FitEntry(TypedDict):
+    """How curves of the drawing became lines and arcs."""
+
+    tolerance_um: Positive
+    max_um: Size
+    arcs: Count
+    lines: Count
+
+
+class PassEntry(TypedDict):
+    """A pass over a figure."""
+
+    offset_um: Size
+    direction: Sense
+    cut_off: bool
+    length_um: Size
+    time_s: Size | None
+
+
+class FigureEntry(TypedDict):
+    """A hole or an outline, and how it is cut."""
+
+    number: Ordinal
+    kind: Annotated[str, one_of("hole", "outline")]
+    part: Ordinal
+    layer: str
+    blocks: BlockRange | None
+    length_um: Size
+    time_s: Size | None
+    thread_um: Point
+    thread_by: Annotated[str, one_of("asked", "marked", "chosen", "contour")]
+    side: Annotated[str, one_of("left", "right")]
+    direction: Sense
+    passes: Annotated[list[PassEntry], of_length(1)]
+
+
+class EntityEntry(TypedDict):
+    """An entity of the drawing."""
+
+    kind: Text
+    handle: str
+    layer: str
+
+
+class LeftOutEntry(TypedDict):
+    """What was left out of the drawing, and why."""
+
+    entity: EntityEntry
+    why: Slug
+    text: Text
+    detail: Text | None
+    gap_um: Size | None
+    place_um: Point | None
+
+
+class PiecesEntry(TypedDict):
+    """Pieces that the program cuts free."""
+
+    parts: Count
+    slugs: Count
+
+
+class WireEntry(TypedDict):
+    """The wire of the proof."""
+
+    diameter_um: Positive
+    spark_gap_um: float
+
+
+class FindingEntry(TypedDict):
+    """A finding of the check, which has a code, or a fault of the proof, which has a name."""
+
+    code: Code | None
+    name: Slug | None
+    severity: SeverityName
+    text: Text
+    figure: Ordinal | None
+    block: Ordinal | None
+    line: Ordinal | None
+    place_um: Point | None
+
+
+class ProofEntry(TypedDict):
+    """How the program was held against its drawing, as written and as cut."""
+
+    verdict: CheckVerdict
+    written_um: Size | None
+    path_um: Size | None
+    edge_to_drawing_um: Size | None
+    drawing_to_edge_um: Size | None
+    tolerance_um: Positive | None
+    pieces: PiecesEntry | None
+    wire: WireEntry
+    start_mm: Point | None
+    findings: list[FindingEntry]
+    unproved: list[Text]
+    notes: list[Text]
+
+
+class RefusalEntry(TypedDict):
+    """Why there is no program, and at which places of the drawing."""
+
+    why: Slug
+    text: Text
+    places_um: list[Point]
+
+
+class ProgramDocument(TypedDict):
+    """A program made of a drawing, ``drycut program --json``."""
+
+    schema: Literal["drycut.program/1"]
+    drycut: Version
+    made: bool
+    drawing: DrawingFileEntry | None
+    fit: FitEntry | None
+    figures: list[FigureEntry]
+    left_out: list[LeftOutEntry]
+    length_um: Size | None
+    time_s: Size | None
+    proof: ProofEntry | None
+    notes: list[Text]
+    refusal: RefusalEntry | None
+
+
+PROGRAM: Final = Document(
+    ProgramDocument,
+    "What drycut program --json prints, described key by key in docs/program.md.",
+    (
+        Law(
+            ProgramDocument,
+            "made",
+            Literal[True],
+            {"refusal": None, "drawing": DrawingFileEntry, "figures": Annotated[list[FigureEntry], of_length(1)]},
+            {"refusal": RefusalEntry, "proof": None, "length_um": None, "figures": _NOTHING},
+        ),
+        Law(
+            ProofEntry,
+            "verdict",
+            Literal["pass"],
+            {"unproved": _NOTHING, "findings": {"items": {"properties": {"severity": {"const": "note"}}}}},
+        ),
+        Law(FindingEntry, "code", None, {"name": Slug}, {"name": None}),
+    ),
+)

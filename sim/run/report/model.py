@@ -1,0 +1,307 @@
+"""Model of ``report.json`` (docs/report.md)."""
+
+from typing import Annotated, Final, Literal, TypedDict
+
+from parser.documents.fields import (
+    DIALECTS,
+    AssumptionEntry,
+    AxisName,
+    BlockCountsEntry,
+    CheckProgress,
+    Code,
+    Count,
+    CurveName,
+    Encoding,
+    Judgement,
+    Ordinal,
+    Point,
+    Positive,
+    SeverityName,
+    Size,
+    StepPoint,
+    Text,
+    Version,
+    between,
+    matching,
+    of_length,
+    one_of,
+)
+from parser.documents.schema import Document, Law
+from sim.run.report.card_model import CardEntry
+from sim.run.report.cut_model import RemainsEntry
+from sim.run.report.drawing_model import ComparisonEntry
+from sim.run.report.run_model import (
+    ContourEntry,
+    DeviationsEntry,
+    EndedEntry,
+    InterpolatorEntry,
+    LimitEntry,
+    LossEntry,
+    OffsetBlockEntry,
+    OffsetEntry,
+    PassEntry,
+    ThreadPointEntry,
+)
+
+_WITH_ERROR: Final = {"contains": {"properties": {"severity": {"const": "error"}}}}
+
+
+class HeaderEntry(TypedDict):
+    """What the header lines of a 3B program say; an ISO program has none."""
+
+    version: Text | None
+    name: Text | None
+    corner_radius_um: float | None
+    offset_um: float | None
+    lengths_um: list[float]
+
+
+class NoHeaderEntry(TypedDict):
+    """What an ISO program says in a header, which it has not."""
+
+
+class ProgramEntry(TypedDict):
+    """The program, and how it was read."""
+
+    name: Text
+    title: Text
+    provenance: str
+    encoding: Encoding
+    dialect: Annotated[str, one_of(*DIALECTS, "GE card")]
+    header: HeaderEntry | NoHeaderEntry
+
+
+class MachineEntry(TypedDict):
+    """The machine, and where the program starts on its table, from the corner of the travel."""
+
+    name: Text
+    engine: Annotated[str, one_of("compiled", "pymunk")]
+    start_um: Point
+
+
+class AssumptionsEntry(TypedDict):
+    """What the program leaves open, which figures nobody has measured, and what was left out."""
+
+    program: list[AssumptionEntry]
+    machine_by_default: bool
+    machine_values: list[Text]
+    drawing_compared: bool
+    wire_bows: bool
+
+
+class WireEntry(TypedDict):
+    """The wire, and the slot that it cuts."""
+
+    diameter_um: Positive
+    spark_gap_um: float
+    kerf_um: Size
+    lag_um: Size
+
+
+class WorkEntry(TypedDict):
+    """The work: thickness mm, density g/cm³."""
+
+    thickness_mm: Positive
+    density_g_cm3: Size
+
+
+class SummaryEntry(TypedDict):
+    """Blocks of the path, the length of it that ran, and its steps of 1 µm."""
+
+    blocks: Ordinal
+    length_um: Size
+    steps: Count
+
+
+class TimeEntry(TypedDict):
+    """Time of the run to its last step, and the share of each block."""
+
+    total: Size
+    by_block: Annotated[list[Size], of_length(1)]
+
+
+class CheckEntry(TypedDict):
+    """How far a check came, and why it is not complete."""
+
+    check: Annotated[
+        str,
+        one_of(
+            "grammar",
+            "order",
+            "blocks",
+            "printed-ends",
+            "header",
+            "steps",
+            "contours",
+            "senses",
+            "crossings",
+            "passes",
+            "corners",
+            "travel",
+            "compensation",
+            "remains",
+        ),
+    ]
+    state: CheckProgress
+    reason: Text | None
+
+
+class CoverageEntry(TypedDict):
+    """How far the checks came."""
+
+    blocks: BlockCountsEntry
+    checks: Annotated[list[CheckEntry], of_length(1)]
+
+
+class FindingEntry(TypedDict):
+    """What is wrong, in English; line, column and block are null where a finding has none."""
+
+    code: Code
+    severity: SeverityName
+    title: Text
+    found: Text
+    expected: Text
+    machine: Text
+    hint: Text
+    line: Ordinal | None
+    column: Ordinal | None
+    block: Ordinal | None
+    block_name: Text | None
+
+
+class StopEntry(TypedDict):
+    """A stop of the program, after which block it comes."""
+
+    kind: Annotated[str, one_of("pause", "end")]
+    after_block: Count
+    line: Ordinal
+
+
+class SteppedEntry(TypedDict):
+    """A block as it is stepped; deviations are null where it never ran."""
+
+    end_um: StepPoint
+    steps: Count
+    max_deviation_um: Size | None
+    interpolation_um: Size | None
+
+
+class TableEntry(TypedDict):
+    """A block as the table moves it."""
+
+    max_deviation_um: Size | None
+
+
+class ExactStraightEntry(TypedDict):
+    """Exact geometry of a line or a jump."""
+
+    start_um: Point
+    end_um: Point
+    center_um: None
+    radius_um: None
+    sweep_deg: None
+    start_angle_deg: None
+    end_angle_deg: None
+    is_major: Literal[False]
+    length_um: Size
+
+
+class ExactArcEntry(TypedDict):
+    """Exact geometry of an arc."""
+
+    start_um: Point
+    end_um: Point
+    center_um: Point
+    radius_um: Positive
+    sweep_deg: float
+    start_angle_deg: Annotated[float, between(-180, 180)]
+    end_angle_deg: float
+    is_major: bool
+    length_um: Size
+
+
+class BlockEntry(TypedDict):
+    """A block of the path; words to count by are null where the dialect has none."""
+
+    block: Ordinal
+    line: Ordinal
+    label: Annotated[str, matching(r"^N[0-9]+$")] | None
+    text: Text
+    kind: CurveName
+    count_um: Count | None
+    radius_um: Count | None
+    curve: Annotated[str, one_of("convex", "concave")] | None
+    count_axis: AxisName | None
+    exact: ExactStraightEntry | ExactArcEntry
+    stepped: SteppedEntry
+    table: TableEntry
+    printed_end_um: Point | None
+
+
+class ReportDocument(TypedDict):
+    """The report of a run, ``report.json``."""
+
+    schema: Literal["drycut.report/1"]
+    drycut: Version
+    verdict: Judgement
+    program: ProgramEntry
+    machine: MachineEntry
+    assumptions: AssumptionsEntry
+    wire: WireEntry
+    work: WorkEntry
+    offset: OffsetEntry | None
+    summary: SummaryEntry
+    time_s: TimeEntry
+    ended: EndedEntry | None
+    contours: list[ContourEntry]
+    thread_points: list[ThreadPointEntry]
+    passes: list[PassEntry]
+    interpolator: InterpolatorEntry
+    deviation: DeviationsEntry
+    limits: list[LimitEntry]
+    losses: list[LossEntry]
+    remains: RemainsEntry | None
+    drawing: ComparisonEntry | None
+    coverage: CoverageEntry
+    findings: list[FindingEntry]
+    stops: list[StopEntry]
+    card: CardEntry | None
+    blocks: Annotated[list[BlockEntry], of_length(1)]
+
+
+class CardProgramEntry(TypedDict):
+    """A program for the card."""
+
+    name: Text
+    title: Text
+    dialect: Literal["GE card"]
+
+
+class CardDocument(TypedDict):
+    """The report of a program for the card that moved neither X nor Y."""
+
+    schema: Literal["drycut.card/1"]
+    drycut: Version
+    verdict: Judgement
+    program: CardProgramEntry
+    findings: list[FindingEntry]
+    card: CardEntry
+
+
+REPORT: Final = Document(
+    ReportDocument,
+    "report.json of drycut, described key by key in docs/report.md.",
+    (
+        Law(ReportDocument, "verdict", Literal["fail"], {"findings": _WITH_ERROR}, {"findings": {"not": _WITH_ERROR}}),
+        Law(BlockEntry, "kind", Literal["arc"], {"exact": ExactArcEntry}, {"exact": ExactStraightEntry}),
+        Law(CheckEntry, "state", Literal["complete"], {"reason": None}, {"reason": Text}),
+        Law(LimitEntry, "limit", None, {"share": None}, {"share": float}),
+        Law(
+            OffsetBlockEntry,
+            "kind",
+            Literal["arc"],
+            {"center_um": Point, "radius_um": Size, "sweep_deg": float},
+            {"center_um": None, "radius_um": None, "sweep_deg": None},
+        ),
+    ),
+)

@@ -1,0 +1,218 @@
+"""Model of the parts of the report on how the program ran (docs/report.md)."""
+
+from typing import Annotated, TypedDict
+
+from parser.documents.fields import (
+    AxisName,
+    BlockRange,
+    Count,
+    CurveName,
+    Ordinal,
+    Point,
+    Positive,
+    Size,
+    of_length,
+    one_of,
+)
+
+
+class OffsetPassEntry(TypedDict):
+    """A pass over each contour: its offset, where it runs to, and its feed as the controller runs it."""
+
+    by_um: Size
+    direction: Annotated[str, one_of("forward", "back")]
+    feed_um_s: Positive
+
+
+OffsetBlockEntry = TypedDict(
+    "OffsetBlockEntry",
+    {
+        "block": Ordinal,
+        "source_block": Ordinal,
+        "pass": Ordinal | None,
+        "kind": CurveName,
+        "made": Annotated[str, one_of("as-it-is", "lead", "shifted", "bridge")],
+        "start_um": Point,
+        "end_um": Point,
+        "center_um": Point | None,
+        "radius_um": Size | None,
+        "sweep_deg": float | None,
+    },
+)
+
+
+VanishedEntry = TypedDict(
+    "VanishedEntry",
+    {
+        "source_block": Ordinal,
+        "pass": Ordinal | None,
+        "left_um": Size,
+    },
+)
+
+
+class GougeEntry(TypedDict):
+    """A place where the wire cuts into the contour: the block of the run, and the block that it cuts into."""
+
+    block: Ordinal
+    source_block: Ordinal
+    into_source_block: Ordinal
+    where_um: Point
+    depth_um: Size
+
+
+class OffsetEntry(TypedDict):
+    """The path that the controller makes of a program on the drawing's contour."""
+
+    by_um: Size
+    side: Annotated[str, one_of("left", "right")]
+    passes: Annotated[list[OffsetPassEntry], of_length(1)]
+    blocks: Annotated[list[OffsetBlockEntry], of_length(1)]
+    vanished: list[VanishedEntry]
+    gouges: list[GougeEntry]
+    closed_paths: list[Count]
+
+
+class EndedEntry(TypedDict):
+    """Where the machine stopped before its program was through."""
+
+    cause: Annotated[str, one_of("trip", "travel")]
+    axis: AxisName
+    block: Ordinal
+    t_s: Size
+    x_um: float
+    y_um: float
+
+
+class ContourEntry(TypedDict):
+    """A stretch of cut blocks with no jump between them; the closure is the distance of its ends."""
+
+    first_block: Ordinal
+    last_block: Ordinal
+    closure_exact_um: Size
+    closure_stepped_um: Size
+    time_s: Size
+
+
+class ThreadPointEntry(TypedDict):
+    """Where the wire is threaded and taken out, and how far the path reaches from there."""
+
+    blocks: BlockRange
+    at_um: Point
+    at_s: Size | None
+    out_um: Point
+    out_s: Size | None
+    left_um: Size
+    right_um: Size
+    down_um: Size
+    up_um: Size
+
+
+class StockEntry(TypedDict):
+    """Material that a pass takes off, on the side of the part."""
+
+    least: Size
+    most: Size
+    mean: Size
+
+
+class PassDeviationEntry(TypedDict):
+    """The largest deviation of a pass."""
+
+    max_um: Size
+    where_um: Point | None
+
+
+class PassEntry(TypedDict):
+    """A pass over an edge."""
+
+    contour: Ordinal
+    number: Ordinal
+    blocks: BlockRange
+    offset_um: float
+    direction: Annotated[str, one_of("forward", "back")]
+    cuts_tab: bool
+    length_um: Size
+    time_s: Size
+    stock_um: StockEntry | None
+    deviation: PassDeviationEntry
+
+
+class InterpolatorEntry(TypedDict):
+    """How the path became steps; periods, axes and chords are of a sampling card alone."""
+
+    name: Annotated[str, one_of("point-by-point", "card")]
+    servo_period_s: Positive | None
+    axis_um: Annotated[list[Size], of_length(2, 2)] | None
+    chord_um: Size | None
+
+
+class WhereEntry(TypedDict):
+    """Block, place and time of the largest deviation."""
+
+    block: Ordinal
+    x_um: float
+    y_um: float
+    t_s: Size
+
+
+class DeviationEntry(TypedDict):
+    """Deviation from the exact path: largest, root mean square, and what 95 % of the length keep to."""
+
+    max_um: Size
+    rms_um: Size
+    p95_um: Size
+    where: WhereEntry | None
+
+
+class CauseEntry(TypedDict):
+    """What a cause adds to the deviation."""
+
+    max_um: Size
+    where: WhereEntry | None
+
+
+class CausesEntry(TypedDict):
+    """What each cause adds to the deviation."""
+
+    interpolation: CauseEntry
+    carried: CauseEntry
+    planning: CauseEntry
+    table: CauseEntry
+    wire: CauseEntry
+
+
+class DeviationsEntry(TypedDict):
+    """Deviation of the interpolation, of the steps, of the table and of the wire."""
+
+    interpolation: DeviationEntry
+    steps: DeviationEntry
+    table: DeviationEntry
+    wire: DeviationEntry
+    by_cause: CausesEntry
+
+
+class LimitEntry(TypedDict):
+    """How near force (N), speed (µm/s) or lag (µm) of an axis came to its limit."""
+
+    quantity: Annotated[str, one_of("force", "speed", "lag")]
+    axis: AxisName
+    value: Size
+    limit: Size | None
+    share: Size | None
+    block: Ordinal
+    t_s: Size
+    x_um: float
+    y_um: float
+
+
+class LossEntry(TypedDict):
+    """Steps that a drive lost, or the error at which a servo tripped."""
+
+    kind: Annotated[str, one_of("lost-steps", "trip")]
+    axis: AxisName
+    amount_um: float
+    block: Ordinal
+    t_s: Size
+    x_um: float
+    y_um: float
