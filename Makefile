@@ -70,12 +70,13 @@ golden: browser
 	DRYCUT_RENEW_GOLDEN=1 $(BIN)/pytest $$(grep -rl --include='test_*.py' 'import.* assert_golden' tests)
 
 # Renew docs/findings.md and docs/findings.zh.md from the pages in parser/findings/pages, and the tables of keys in
-# docs/scenarios.md and docs/scenarios.zh.md from those in sim/setup.
+# docs/scenarios.md and docs/scenarios.zh.md from those in sim/setup; schemas and types of scripts from models.
 pages: $(READY)
 	$(BIN)/python -m sim.show.findings.catalogue_document
 	$(BIN)/python -m sim.setup.key_tables
 	$(BIN)/python tests/tools/door_page.py
 	PYTHONPATH=. $(BIN)/python tests/tools/schema_pages.py
+	PYTHONPATH=. $(BIN)/python tests/tools/script_types.py
 
 # Renew the lock for every Python the project supports.
 lock: $(READY)

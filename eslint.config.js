@@ -21,7 +21,7 @@ export default [
     rules: {
       "complexity": ["error", 10],
       "eqeqeq": "error",
-      "max-lines": ["error", 250],
+      "max-lines": ["error", { max: 250, skipComments: true }],
       "no-shadow": "error",
       "no-unused-expressions": "error",
       "no-use-before-define": ["error", { functions: false, variables: false }],

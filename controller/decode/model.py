@@ -94,5 +94,5 @@ class DecodeDocument(TypedDict):
 
 DECODE: Final = Document(
     DecodeDocument,
-    "Blocks of an ISO program as `drycut decode --json` prints them, described key by key in docs/iso.md, section 8.",
+    "docs/iso.md",
 )

@@ -90,3 +90,10 @@ class BlockCountsEntry(TypedDict):
     read: Count
     decoded: Count
     stepped: Count
+
+
+class SaidEntry(TypedDict):
+    """A text in both languages."""
+
+    en: str
+    zh: str

@@ -52,14 +52,14 @@ class Document(NamedTuple):
     ----------
     model
         A `TypedDict`, whose field ``schema`` is the name of the document and its version.
-    description
-        Who writes it, and where it is described.
+    page
+        Where it is described key by key: a page of ``docs``.
     laws
         What its fields say of each other.
     """
 
     model: type
-    description: str
+    page: str
     laws: Sequence[Law] = ()
 
     @property
@@ -77,7 +77,7 @@ def document_schema(document: Document) -> dict[str, Any]:
         "$schema": DRAFT,
         "title": document.name,
         **whole,
-        "description": document.description,
+        "description": f"{whole['description']} Key by key: {document.page}.",
         "$defs": models.defs,
     }
 

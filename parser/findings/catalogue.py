@@ -12,6 +12,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Literal, NamedTuple
 
+from parser.documents.fields import SaidEntry
 from parser.findings.codes import CODES
 from parser.findings.findings import NO_NAMES, Finding, Value
 from parser.units import UM_PER_MM, mm, mm_text
@@ -30,6 +31,10 @@ class Bilingual(NamedTuple):
 
     en: str
     zh: str
+
+    def entry(self) -> SaidEntry:
+        """It as documents have it."""
+        return {"en": self.en, "zh": self.zh}
 
 
 class CataloguePage(NamedTuple):

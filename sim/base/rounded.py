@@ -45,6 +45,12 @@ def corners(pairs: NDArray[np.float64]) -> list[list[float]]:
     return found
 
 
+def numbers(values: Floats, digits: int = _DIGITS) -> list[float]:
+    """Rounded numbers, none of them NaN."""
+    found: list[float] = (np.round(values, digits) + 0.0).tolist()
+    return found
+
+
 def points(pairs: NDArray[np.float64]) -> list[list[float] | None]:
     """Rounded pairs; None for NaN."""
     found = (np.round(pairs, _DIGITS) + 0.0).tolist()

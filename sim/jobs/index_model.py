@@ -54,7 +54,7 @@ class IndexDocument(TypedDict):
 
 INDEX: Final = Document(
     IndexDocument,
-    "index.json of drycut run of many programs, described in docs/batch.md.",
+    "docs/batch.md",
     (
         Law(
             IndexRowEntry,

@@ -158,7 +158,7 @@ class ProgramDocument(TypedDict):
 
 PROGRAM: Final = Document(
     ProgramDocument,
-    "What drycut program --json prints, described key by key in docs/program.md.",
+    "docs/program.md",
     (
         Law(
             ProgramDocument,

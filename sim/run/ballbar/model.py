@@ -94,7 +94,7 @@ class BallbarDocument(TypedDict):
 
 BALLBAR: Final = Document(
     BallbarDocument,
-    "ballbar.json of drycut, described key by key in docs/ballbar.md.",
+    "docs/ballbar.md",
     (
         Law(BallbarDocument, "verdict", Literal["pass"], {"losses": {"maxItems": 0}, "circularity_um": float}),
         Law(

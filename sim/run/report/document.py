@@ -21,7 +21,7 @@ from parser.findings.findings import Finding
 from parser.geometry.curves import CurveKind, Floats
 from parser.shape.contours import Contour
 from parser.toolpath import Toolpath
-from sim.base.rounded import DEG_DIGITS, column, moment, place, points, rounded, rows
+from sim.base.rounded import DEG_DIGITS, column, moment, numbers, place, points, rounded, rows
 from sim.check.result import Coverage
 from sim.measure.compare.result import Comparison
 from sim.measure.passes.figures import PassFigures
@@ -190,7 +190,7 @@ def build_report(run: DryRun) -> ReportDocument:
             "length_um": rounded(run.ran_um),
             "steps": len(run.stepped),
         },
-        "time_s": {"total": rounded(run.ran_s), "by_block": [rounded(time_s) for time_s in run.block_time_s.tolist()]},
+        "time_s": {"total": rounded(run.ran_s), "by_block": numbers(run.block_time_s)},
         "ended": ended_entry(run),
         "contours": [_contour(contour, run.block_time_s) for contour in run.whole_contours],
         "thread_points": thread_entries(run),

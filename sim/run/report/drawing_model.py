@@ -140,6 +140,4 @@ class CompareDocument(_Head, ComparisonEntry):
     """The comparison by itself, ``drycut compare --json``; the offset is null of an edge as cut."""
 
 
-COMPARE: Final = Document(
-    CompareDocument, "What drycut compare --json prints, described key by key in docs/compare.md."
-)
+COMPARE: Final = Document(CompareDocument, "docs/compare.md")

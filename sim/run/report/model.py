@@ -290,7 +290,7 @@ class CardDocument(TypedDict):
 
 REPORT: Final = Document(
     ReportDocument,
-    "report.json of drycut, described key by key in docs/report.md.",
+    "docs/report.md",
     (
         Law(ReportDocument, "verdict", Literal["fail"], {"findings": _WITH_ERROR}, {"findings": {"not": _WITH_ERROR}}),
         Law(BlockEntry, "kind", Literal["arc"], {"exact": ExactArcEntry}, {"exact": ExactStraightEntry}),

@@ -151,4 +151,4 @@ class CheckDocument(TypedDict):
     verdict: CheckVerdict
 
 
-CHECK: Final = Document(CheckDocument, "What drycut check --format json writes, described key by key in docs/check.md.")
+CHECK: Final = Document(CheckDocument, "docs/check.md")

@@ -10,9 +10,9 @@ What a replay's document says of what happens in a run: stops, findings, contour
 """
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import shapely
@@ -22,14 +22,14 @@ from controller.motion.plan import Plan
 from controller.stepping.words import words_of
 from parser import __version__
 from parser.controller_words.step_words import Axis, StepWords
-from parser.findings.catalogue import LANGUAGES, texts
+from parser.findings.catalogue import Language, texts
 from parser.findings.findings import Finding
 from parser.program import Program
 from parser.shape.contours import Contour
 from parser.text.encoding import printable
 from parser.toolpath import Stop
 from parser.units import from_mm
-from sim.base.rounded import column, rounded
+from sim.base.rounded import column, corners, numbers, place, rounded
 from sim.cut.pieces.pieces import Piece
 from sim.run.course import Happening, PassOf, course_of, passes_of
 from sim.run.dryrun import DryRun
@@ -44,6 +44,22 @@ from sim.show.html.environment import rendered
 from sim.show.html.packed import packed
 from sim.show.keys import OF_PAGE, actions_of
 from sim.show.replay.curve_columns import exact_columns
+from sim.show.replay.model import (
+    BlocksEntry,
+    ContourEntry,
+    DecodedBlockEntry,
+    DecodingEntry,
+    EndingEntry,
+    FindingEntry,
+    FindingTextsEntry,
+    LossEntry,
+    PassEntry,
+    PieceEntry,
+    PlanEntry,
+    ProgramEntry,
+    ReplayDocument,
+    StopEntry,
+)
 from sim.show.replay.quiz import quiz_of
 from sim.show.replay.tape import tape
 from sim.show.texts.phrases import machine_name, named_pass
@@ -52,12 +68,12 @@ from sim.table.record.losses import Loss
 from sim.table.trace import origin_um
 
 
-def stop_entry(stop: Stop) -> dict[str, Any]:
+def stop_entry(stop: Stop) -> StopEntry:
     """A pause or the end: `after` so many blocks."""
     return {"kind": stop.kind, "after": stop.after, "line": stop.line}
 
 
-def finding_entry(happening: Happening[Finding]) -> dict[str, Any]:
+def finding_entry(happening: Happening[Finding]) -> FindingEntry:
     """A finding with its texts in both languages.
 
     It has its row and time, and its place where it knows that; None where no block that ran is meant.
@@ -73,11 +89,23 @@ def finding_entry(happening: Happening[Finding]) -> dict[str, Any]:
         "row": None if happening.row < 0 else happening.row,
         "t_s": None if math.isnan(happening.t_s) else rounded(happening.t_s),
         "place_um": None if place_mm is None else [rounded(from_mm(along)) for along in place_mm],
-        "texts": {language: texts(finding, language)._asdict() for language in LANGUAGES},
+        "texts": {"en": _texts(finding, "en"), "zh": _texts(finding, "zh")},
     }
 
 
-def contour_entries(contours: Iterable[Contour]) -> list[dict[str, Any]]:
+def _texts(finding: Finding, language: Language) -> FindingTextsEntry:
+    of = texts(finding, language)
+    return {
+        "title": of.title,
+        "found": of.found,
+        "expected": of.expected,
+        "machine": of.machine,
+        "hint": of.hint,
+        "message": of.message,
+    }
+
+
+def contour_entries(contours: Iterable[Contour]) -> list[ContourEntry]:
     """Contours by the rows of their first and last blocks."""
     return [
         {
@@ -90,18 +118,18 @@ def contour_entries(contours: Iterable[Contour]) -> list[dict[str, Any]]:
     ]
 
 
-def ending_entry(ended: Ending) -> dict[str, Any]:
+def ending_entry(ended: Ending) -> EndingEntry:
     """Where the machine stopped before its program was through, and why."""
     return {
         "cause": ended.cause,
         "axis": ended.axis.name,
         "row": ended.row,
         "t_s": rounded(ended.t_s),
-        "place_um": [rounded(ended.x_um), rounded(ended.y_um)],
+        "place_um": place((ended.x_um, ended.y_um)),
     }
 
 
-def pass_entries(passes: Iterable[PassOf]) -> list[dict[str, Any]]:
+def pass_entries(passes: Iterable[PassOf]) -> list[PassEntry]:
     """Passes by the rows of their first and last blocks, with the paint of their tone, and their names."""
     return [
         {
@@ -109,13 +137,13 @@ def pass_entries(passes: Iterable[PassOf]) -> list[dict[str, Any]]:
             "last_row": each.last,
             "number": each.number,
             "paint": str(paint_of_pass(each.number)),
-            "name": named_pass(each, among)._asdict(),
+            "name": named_pass(each, among).entry(),
         }
         for each, among in passes
     ]
 
 
-def loss_entry(loss: Loss) -> dict[str, Any]:
+def loss_entry(loss: Loss) -> LossEntry:
     """Steps that a stepper lost, or where a servo tripped."""
     return {
         "kind": loss.kind,
@@ -127,24 +155,25 @@ def loss_entry(loss: Loss) -> dict[str, Any]:
     }
 
 
-def block_columns(run: DryRun) -> dict[str, list[Any]]:
+def block_columns(run: DryRun) -> BlocksEntry:
     """Columns of n blocks, one entry a block; `place_*`, `first_step` and `border_s` have n + 1."""
-    return {
+    columns = {
         **exact_columns(run.toolpath),
         **_words(words_of(run.toolpath)),
         **_source(run.program),
         "first_step": [0, *np.cumsum(run.stepped.count).tolist()],
         "border_s": column(run.border_s),
     }
+    return cast("BlocksEntry", columns)
 
 
-def plan_columns(plan: Plan) -> dict[str, list[Any] | None]:
+def plan_columns(plan: Plan) -> PlanEntry:
     """Columns of p phases, `t_s` with p + 1; no `jerk_um_s3` where there is none."""
     return {
-        "t_s": column(plan.time_s, 9),
-        "speed_um_s": column(plan.speed_um_s),
-        "acceleration_um_s2": column(plan.acceleration_um_s2),
-        "jerk_um_s3": column(plan.jerk_um_s3) if plan.jerk_um_s3.any() else None,
+        "t_s": numbers(plan.time_s, 9),
+        "speed_um_s": numbers(plan.speed_um_s),
+        "acceleration_um_s2": numbers(plan.acceleration_um_s2),
+        "jerk_um_s3": numbers(plan.jerk_um_s3) if plan.jerk_um_s3.any() else None,
     }
 
 
@@ -178,23 +207,13 @@ _OUTLINE_UM = 1.0
 """Outlines of pieces are simplified by a step, and drawn in whole µm."""
 
 
-def scene(run: DryRun) -> dict[str, Any]:
-    """Machine, wire, work and clamps; outlines are lists of corners [x, y], µm of the program."""
-    scenario = run.scenario
-    setup = Setup(scenario.machine.table, scenario.start_um, origin_um(run.toolpath))
-    return {
-        "machine": scenario.machine.name,
-        "interpolator": scenario.machine.controller.interpolation,
-        "wire_diameter_um": rounded(scenario.wire.diameter_um),
-        "offset_um": rounded(scenario.wire.reach_um),
-        "thickness_mm": scenario.thickness_mm,
-        "travel_um": np.round(setup.room_um, 6).tolist(),
-        "work_um": None if scenario.work_um is None else _corners(scenario.work_um),
-        "clamps": [{"name": clamp.name, "outline_um": _corners(clamp.outline_um)} for clamp in scenario.clamps],
-    }
+def _travel(run: DryRun) -> list[list[float]]:
+    """Lowest and highest corner of the table's room, µm of the program."""
+    room = Setup(run.scenario.machine.table, run.scenario.start_um, origin_um(run.toolpath)).room_um
+    return corners(np.asarray(room, dtype=np.float64))
 
 
-def piece_entry(happening: Happening[Piece]) -> dict[str, Any]:
+def piece_entry(happening: Happening[Piece]) -> PieceEntry:
     """A piece that comes free; `outline_um` is its outer ring, `holes_um` are those in it."""
     piece = happening.what
     return {
@@ -209,10 +228,10 @@ def piece_entry(happening: Happening[Piece]) -> dict[str, Any]:
     }
 
 
-def _ring(ring: shapely.LinearRing) -> list[list[int]]:
+def _ring(ring: shapely.LinearRing) -> list[list[float]]:
     """Corners of a closed outline, the first one once."""
     corners = np.asarray(simpler(ring, _OUTLINE_UM).coords)[:-1, :2]
-    whole: list[list[int]] = np.rint(corners).astype(np.int64).tolist()
+    whole: list[list[float]] = np.rint(corners).astype(np.int64).tolist()
     return whole
 
 
@@ -224,7 +243,7 @@ _MOST = 3000
 """Blocks: a longer program is not one to learn from, and its page would grow by half."""
 
 
-def decoding(run: DryRun) -> dict[str, Any] | None:
+def decoding(run: DryRun) -> DecodingEntry | None:
     """Decoded blocks that run, and which of them each row is of; None where there are none, and of long programs."""
     program = run.program
     if program.decoder is None or len(program.toolpath) > _MOST:
@@ -238,24 +257,22 @@ def decoding(run: DryRun) -> dict[str, Any] | None:
     }
 
 
-def _entry(text: str, each_decoded: Decoded) -> dict[str, Any]:
+def _entry(text: str, each_decoded: Decoded) -> DecodedBlockEntry:
     return {
         "text": printable(text[slice(*each_decoded.block.span)]),
         "steps": [
             {
                 "order": order_text(step.order),
-                "word": word_text(step)._asdict(),
+                "word": word_text(step).entry(),
                 "field": step.field,
-                "value": value_text(step)._asdict(),
+                "value": value_text(step).entry(),
             }
             for step in each_decoded.block.steps
         ],
         "buffer": buffer_text(each_decoded.block),
-        "ways": [{"name": named.name._asdict(), "text": named.text._asdict()} for named in way_texts(each_decoded)],
+        "ways": [{"name": named.name.entry(), "text": named.text.entry()} for named in way_texts(each_decoded)],
     }
 
-
-SCHEMA = "drycut.replay/1"
 
 _ASSETS = Path(__file__).with_name("assets")
 
@@ -268,32 +285,40 @@ def replay_page(recording: Recording) -> str:
     return rendered(_ASSETS, "replay.html.j2", **values, keys=OF_PAGE, actions=actions_of(OF_PAGE))
 
 
-def _handed_over(document: dict[str, Any]) -> dict[str, Any]:
+def _handed_over(document: ReplayDocument) -> dict[str, Any]:
     """A document as the page has it, the long columns of blocks and plan packed.
 
     The lines of the program are not: a browser that is too old to unpack them lists them all the same.
     """
-    columns = {
-        key: {name: value and packed(value) for name, value in document[key].items()} for key in ("blocks", "plan")
-    }
-    return {**document, **columns}
+    return {**document, "blocks": _packed(document["blocks"]), "plan": _packed(document["plan"])}
 
 
-def replay_document(recording: Recording) -> dict[str, Any]:
+def _packed(columns: Mapping[str, Any]) -> dict[str, Any]:
+    return {name: value and packed(value) for name, value in columns.items()}
+
+
+def replay_document(recording: Recording) -> ReplayDocument:
     """Document of a recorded run as lists, dicts, texts, numbers and None; rows of blocks count from 0.
 
     Where the machine stopped early, steps, samples and the duration end there.
     """
-    run, course = recording.run, course_of(recording)
+    run, course, scenario = recording.run, course_of(recording), recording.run.scenario
     return {
-        "schema": SCHEMA,
+        "schema": "drycut.replay/1",
         "drycut": __version__,
-        "title": run.scenario.title,
-        "provenance": run.scenario.provenance,
+        "title": scenario.title,
+        "provenance": scenario.provenance,
         "verdict": verdict(run.findings),
         "duration_s": course.duration_s,
         "program": _program(run.program),
-        **scene(run),
+        "machine": scenario.machine.name,
+        "interpolator": scenario.machine.controller.interpolation,
+        "wire_diameter_um": rounded(scenario.wire.diameter_um),
+        "offset_um": rounded(scenario.wire.reach_um),
+        "thickness_mm": scenario.thickness_mm,
+        "travel_um": _travel(run),
+        "work_um": None if scenario.work_um is None else _corners(scenario.work_um),
+        "clamps": [{"name": clamp.name, "outline_um": _corners(clamp.outline_um)} for clamp in scenario.clamps],
         "has_jumps": bool(run.toolpath.is_jump.any()),
         "blocks": block_columns(run),
         "decoding": decoding(run),
@@ -310,7 +335,7 @@ def replay_document(recording: Recording) -> dict[str, Any]:
     }
 
 
-def _program(program: Program) -> dict[str, Any]:
+def _program(program: Program) -> ProgramEntry:
     """Name and lines, with every character in its place; what cannot be printed is replaced."""
     lines = range(1, program.lines.line(max(len(program.text) - 1, 0)) + 1)
     return {

@@ -5,7 +5,7 @@ A question as a replay's document holds it, and those that a scenario asks.
 
 from collections import Counter
 from random import Random
-from typing import Any, Final, get_args
+from typing import Final, get_args
 
 import numpy as np
 
@@ -17,6 +17,7 @@ from sim.run.dryrun import DryRun
 from sim.setup.quiz import About, Question, WrittenQuestion
 from sim.show.replay.answers import written_out
 from sim.show.replay.asked_block import asked_block
+from sim.show.replay.model import QuestionEntry, QuizEntry
 from sim.show.replay.of_run import questions_of
 
 _HIDDEN: dict[About, tuple[Field, ...]] = {
@@ -30,7 +31,7 @@ _HIDDEN: dict[About, tuple[Field, ...]] = {
 """Fields of its block that would tell the answer."""
 
 
-def question_entries(run: DryRun, steps: Pulses, words: StepWords) -> list[dict[str, Any]]:
+def question_entries(run: DryRun, steps: Pulses, words: StepWords) -> list[QuestionEntry]:
     """Questions of the scenario in the order of their rows.
 
     Those that this run has no answer to are left out: of blocks that vanish under an offset, of the first step where
@@ -40,7 +41,7 @@ def question_entries(run: DryRun, steps: Pulses, words: StepWords) -> list[dict[
     return sorted((entry for entry in entries if entry is not None), key=lambda entry: int(entry["row"]))
 
 
-def _of_scenario(run: DryRun, steps: Pulses, words: StepWords, question: Question) -> dict[str, Any] | None:
+def _of_scenario(run: DryRun, steps: Pulses, words: StepWords, question: Question) -> QuestionEntry | None:
     rows = np.flatnonzero(run.toolpath.source.block == question.block)
     if not len(rows):
         return None
@@ -51,7 +52,7 @@ def _of_scenario(run: DryRun, steps: Pulses, words: StepWords, question: Questio
     return written and entry_of(run, row, written, what)
 
 
-def entry_of(run: DryRun, row: int, written: WrittenQuestion, about: str | None) -> dict[str, Any]:
+def entry_of(run: DryRun, row: int, written: WrittenQuestion, about: str | None) -> QuestionEntry:
     """A question about the block in a row; its kind is None where a scenario has its own."""
     source = run.toolpath.source
     return {
@@ -59,24 +60,24 @@ def entry_of(run: DryRun, row: int, written: WrittenQuestion, about: str | None)
         "block": int(source.block[row]),
         "name": source.names.of_row(row),
         "about": about,
-        "ask": written.ask._asdict(),
-        "answers": [answer._asdict() for answer in written.answers],
+        "ask": written.ask.entry(),
+        "answers": [answer.entry() for answer in written.answers],
         "right": written.right,
-        "why": written.why._asdict(),
+        "why": written.why.entry(),
         "hidden": _hidden(run, row, about),
     }
 
 
-def _hidden(run: DryRun, row: int, about: str | None) -> list[tuple[int, int]]:
+def _hidden(run: DryRun, row: int, about: str | None) -> list[list[int]]:
     """First character in the block's text, and one past the last, of what would tell the answer."""
     source = run.toolpath.source
     if about == "end":  # programs print it behind the block
         first, past = source.span[row].tolist()
         line_end = source.text.find("\n", past)
-        return [(past - first, (line_end if line_end >= 0 else len(source.text)) - first)]
+        return [[past - first, (line_end if line_end >= 0 else len(source.text)) - first]]
     fields = source.fields_of(source.block_text(row))
     wanted = next((of for kind, of in _HIDDEN.items() if kind == about), ())
-    return sorted(fields[each] for each in wanted if each in fields)
+    return sorted([*fields[each]] for each in wanted if each in fields)
 
 
 def answered(run: DryRun, steps: Pulses, words: StepWords, row: int, about: About) -> WrittenQuestion | None:
@@ -98,19 +99,19 @@ IN_A_SET: Final = 10
 _MOST_BLOCKS: Final = 30
 
 
-def quiz_of(run: DryRun, steps: Pulses) -> dict[str, Any]:
+def quiz_of(run: DryRun, steps: Pulses) -> QuizEntry:
     """``quiz`` of a replay's document: the scenario's `own` questions, a `pool` of others, and `sets` of those."""
     words = words_of(run.toolpath)
     pool = _pool(run, steps, words)
     return {"own": question_entries(run, steps, words), "pool": pool, "sets": sets_of(pool)}
 
 
-def sets_of(pool: list[dict[str, Any]]) -> list[list[int]]:
+def sets_of(pool: list[QuestionEntry]) -> list[list[int]]:
     """For each set the indices of its questions, in the order of their rows; none where the pool is empty."""
     return [_set(pool, number) for number in range(1, SETS + 1)] if pool else []
 
 
-def _pool(run: DryRun, steps: Pulses, words: StepWords) -> list[dict[str, Any]]:
+def _pool(run: DryRun, steps: Pulses, words: StepWords) -> list[QuestionEntry]:
     """Questions of every kind about blocks that are spread over the program, by their rows."""
     cut = np.flatnonzero(~run.toolpath.is_jump & (run.stepped.count > 0))
     rows = cut[np.unique(np.linspace(0, len(cut) - 1, min(len(cut), _MOST_BLOCKS)).astype(np.int64))].tolist()
@@ -128,12 +129,12 @@ def _kinds(run: DryRun) -> tuple[About, ...]:
     return every if run.toolpath.words is not None else ("turn", "end")
 
 
-def _set(pool: list[dict[str, Any]], number: int) -> list[int]:
+def _set(pool: list[QuestionEntry], number: int) -> list[int]:
     """Questions of as many kinds about as many blocks as there are, the others left to chance."""
     chance = Random(number)  # noqa: S311 - the same for all who are told the number
     order = sorted(range(len(pool)), key=lambda _: chance.random())
     chosen: list[int] = []
-    kinds: Counter[str] = Counter()
+    kinds: Counter[str | None] = Counter()
     blocks: Counter[int] = Counter()
     while order and len(chosen) < IN_A_SET:
         best = min(order, key=lambda at: (kinds[pool[at]["about"]], blocks[pool[at]["block"]]))

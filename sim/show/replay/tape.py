@@ -8,13 +8,14 @@ of the wire the tape has the block that each sample is measured from: the page l
 A column of numbers is text, as `sim.show.html.packed` packs it.
 """
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from controller.stepping.pulses import Pulses
 from parser.geometry.curves import Floats, Ints
 from sim.show.html.packed import Packer
+from sim.show.replay.model import TapeEntry
 from sim.table.trace import Trace
 
 TICK_S = 1e-5
@@ -36,7 +37,7 @@ class _Before(NamedTuple):
     took: Ints
 
 
-def tape(steps: Pulses, origin_um: tuple[int, int], trace: Trace, foot_row: Ints) -> dict[str, Any]:
+def tape(steps: Pulses, origin_um: tuple[int, int], trace: Trace, foot_row: Ints) -> TapeEntry:
     """Steps from an origin and samples as a page reads them, texts in base64 and numbers.
 
     `foot_row` (m,) is the row of the block that the wire's deviation is measured from at each of the m samples.
@@ -53,6 +54,7 @@ def tape(steps: Pulses, origin_um: tuple[int, int], trace: Trace, foot_row: Ints
         first, past = np.searchsorted(sampled, ticks[[0, -1]])
         done[first:past] += np.searchsorted(ticks, sampled[first:past], side="right")
         done[past:] += len(ticks)
+    table_x, table_y, wire_x, wire_y = _places(trace, _commanded(steps, origin_um, done))
     return {
         "tick_s": TICK_S,
         "grain_um": GRAIN_UM,
@@ -62,7 +64,10 @@ def tape(steps: Pulses, origin_um: tuple[int, int], trace: Trace, foot_row: Ints
         "step_ticks": times.text(),
         "samples": len(sampled),
         "sample_ticks": _packed(np.diff(sampled, n=2, prepend=[0, 0])),
-        **_places(trace, _commanded(steps, origin_um, done)),
+        "table_x": table_x,
+        "table_y": table_y,
+        "wire_x": wire_x,
+        "wire_y": wire_y,
         "foot_row": _changes(foot_row),
     }
 
@@ -95,18 +100,14 @@ def _commanded(steps: Pulses, origin_um: tuple[int, int], done: Ints) -> Floats:
     return places
 
 
-def _places(trace: Trace, commanded_um: Floats) -> dict[str, str | None]:
-    """Table and wire by axis; None for a wire that stays with the table."""
+def _places(trace: Trace, commanded_um: Floats) -> tuple[str, str, str | None, str | None]:
+    """X and Y of the table, then of the wire; None for a wire that stays with the table."""
     table = np.rint((trace.table_um - commanded_um) / GRAIN_UM).astype(np.int64)
     placed = commanded_um + table * GRAIN_UM
     wire = np.rint((trace.wire_um - placed) / GRAIN_UM).astype(np.int64)
     bows = trace.wire_um is not trace.table_um
-    return {
-        "table_x": _changes(table[:, 0]),
-        "table_y": _changes(table[:, 1]),
-        "wire_x": _changes(wire[:, 0]) if bows else None,
-        "wire_y": _changes(wire[:, 1]) if bows else None,
-    }
+    x, y = (_changes(wire[:, 0]), _changes(wire[:, 1])) if bows else (None, None)
+    return _changes(table[:, 0]), _changes(table[:, 1]), x, y
 
 
 def _changes(column: Ints) -> str:

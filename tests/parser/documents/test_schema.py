@@ -35,7 +35,7 @@ class Part(TypedDict):
 
 
 DOCUMENT = Document(
-    Part, "A part.", (Law(Hole, "kind", Literal["round"], {"radius_um": Positive}, {"radius_um": None}),)
+    Part, "docs/part.md", (Law(Hole, "kind", Literal["round"], {"radius_um": Positive}, {"radius_um": None}),)
 )
 SCHEMA = document_schema(DOCUMENT)
 
@@ -119,7 +119,10 @@ def test_every_key_is_always_there(key: str) -> None:
 
 
 def test_a_document_has_the_name_of_its_schema_and_its_parts_say_what_they_are() -> None:
-    assert (SCHEMA["title"], SCHEMA["description"]) == ("drycut.part/2", "A part.")
+    assert (SCHEMA["title"], SCHEMA["description"]) == (
+        "drycut.part/2",
+        "All kinds of fields. Key by key: docs/part.md.",
+    )
     assert SCHEMA["$defs"]["Hole"]["description"] == "A hole of the part."
 
 
@@ -127,10 +130,10 @@ def test_two_models_of_one_name_are_refused() -> None:
     other = TypedDict("Hole", {"depth_um": float})  # type: ignore[misc]  # noqa: UP013
     both = TypedDict("both", {"schema": Literal["drycut.both/1"], "first": Hole, "second": other})  # noqa: UP013
     with pytest.raises(TypeError, match="Hole"):
-        document_schema(Document(both, "Both."))
+        document_schema(Document(both, "docs/both.md"))
 
 
 def test_a_type_that_no_document_has_is_refused() -> None:
     odd = TypedDict("odd", {"schema": Literal["drycut.odd/1"], "when": complex})  # noqa: UP013
     with pytest.raises(TypeError, match="complex"):
-        document_schema(Document(odd, "Odd."))
+        document_schema(Document(odd, "docs/odd.md"))

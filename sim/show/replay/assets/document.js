@@ -4,10 +4,18 @@
 /** @import { Said } from "../../html/assets/language.js" */
 
 /** @typedef {[x: number, y: number]} Place */
+/** @typedef {Blocks["kind"][number]} Kind */
+/** @typedef {Loss["axis"]} Axis */
+/** @typedef {Pass["paint"]} PassPaint */
+/** @typedef {"center_x_um" | "center_y_um" | "radius_um" | "start_angle_rad" | "sweep_rad"} OfArcs */
+/** @typedef {Pick<Blocks, "kind" | "place_x_um" | "place_y_um" | OfArcs>} Curves What a path is drawn by. */
+
+/** Written by `make pages` from the model in Python. */
 
 /**
+ * A recorded run; rows of blocks count from 0, steps from 1; places and lengths are µm of the program.
  * @typedef {object} ReplayDocument
- * @property {string} schema
+ * @property {"drycut.replay/1"} schema
  * @property {string} drycut
  * @property {string} title
  * @property {string} provenance
@@ -33,11 +41,12 @@
  * @property {Loss[]} losses
  * @property {Ending | null} ended
  * @property {Piece[]} pieces
- * @property {{ own: Question[], pool: Question[], sets: number[][] }} quiz of the scenario, of any program, and which of these make a set
+ * @property {Quiz} quiz
  * @property {Tape} tape
  */
 
 /**
+ * The program's text, line by line.
  * @typedef {object} Program
  * @property {string} name
  * @property {string} dialect
@@ -46,19 +55,17 @@
  */
 
 /**
+ * A clamp, seen from above.
  * @typedef {object} Clamp
  * @property {string} name
  * @property {Place[]} outline_um
  */
 
-/** @typedef {"center_x_um" | "center_y_um" | "radius_um" | "start_angle_rad" | "sweep_rad"} OfArcs */
-/** @typedef {Pick<Blocks, "kind" | "place_x_um" | "place_y_um" | OfArcs>} Curves What a path is drawn by. */
-
 /**
- * Columns of n blocks; `place_*`, `first_step` and `border_s` have n + 1. What only an arc has is null elsewhere, where
- * nothing asks for it.
+ * Columns of n blocks; `place_*`, `first_step` and `border_s` have n + 1. What only an arc has is null elsewhere,
+ * where nothing asks for it.
  * @typedef {object} Blocks
- * @property {Kind[]} kind
+ * @property {("line" | "arc" | "jump")[]} kind
  * @property {number[]} place_x_um
  * @property {number[]} place_y_um
  * @property {number[]} center_x_um of an arc
@@ -70,7 +77,7 @@
  * @property {number[]} word_x_um
  * @property {number[]} word_y_um
  * @property {number[]} count_um
- * @property {Axis[]} count_axis
+ * @property {("X" | "Y")[]} count_axis
  * @property {number[]} quadrant
  * @property {(-1 | 0 | 1)[]} turn
  * @property {number[]} number
@@ -91,6 +98,7 @@
  */
 
 /**
+ * A block, word by word, the buffer that it leaves, and its way.
  * @typedef {object} DecodedBlock
  * @property {string} text
  * @property {DecodeStep[]} steps
@@ -99,6 +107,7 @@
  */
 
 /**
+ * A word decoded, and the field that it sets.
  * @typedef {object} DecodeStep
  * @property {string} order
  * @property {Said} word
@@ -106,10 +115,12 @@
  * @property {Said} value
  */
 
-/** @typedef {{ name: Said, text: Said }} NamedText */
-
-/** @typedef {"jump" | "line" | "arc"} Kind */
-/** @typedef {"X" | "Y"} Axis */
+/**
+ * A text with the name of what it tells.
+ * @typedef {object} NamedText
+ * @property {Said} name
+ * @property {Said} text
+ */
 
 /**
  * Columns of p phases; `t_s` has p + 1.
@@ -121,6 +132,7 @@
  */
 
 /**
+ * A pause or the end.
  * @typedef {object} Stop
  * @property {string} kind
  * @property {number} after so many blocks
@@ -128,6 +140,7 @@
  */
 
 /**
+ * A contour by the rows of its first and last blocks.
  * @typedef {object} Contour
  * @property {number} first_row
  * @property {number} last_row
@@ -141,13 +154,12 @@
  * @property {number} first_row
  * @property {number} last_row
  * @property {number} number
- * @property {PassPaint} paint
+ * @property {"kerf" | "trim-1" | "trim-2" | "trim-3" | "trim-4"} paint
  * @property {Said} name
  */
 
-/** @typedef {"kerf" | "trim-1" | "trim-2" | "trim-3" | "trim-4"} PassPaint */
-
 /**
+ * A finding; row, time and place are null where it has none.
  * @typedef {object} Finding
  * @property {string} code
  * @property {"error" | "warning" | "note"} severity
@@ -156,11 +168,19 @@
  * @property {string} block_name as the listing has it; empty where no block is meant
  * @property {number | null} row
  * @property {number | null} t_s
- * @property {number[] | null} place_um
- * @property {{ en: FindingTexts, zh: FindingTexts }} texts
+ * @property {Place | null} place_um
+ * @property {BothTexts} texts
  */
 
 /**
+ * Texts of a finding in both languages.
+ * @typedef {object} BothTexts
+ * @property {FindingTexts} en
+ * @property {FindingTexts} zh
+ */
+
+/**
+ * What is said of a finding in one language.
  * @typedef {object} FindingTexts
  * @property {string} title
  * @property {string} found
@@ -171,9 +191,10 @@
  */
 
 /**
+ * Steps that a stepper lost, or where a servo tripped.
  * @typedef {object} Loss
  * @property {string} kind
- * @property {Axis} axis
+ * @property {"X" | "Y"} axis
  * @property {number} row
  * @property {number} t_s
  * @property {number} amount_um
@@ -181,15 +202,17 @@
  */
 
 /**
+ * Where the machine stopped before its program was through, and why.
  * @typedef {object} Ending
  * @property {string} cause
- * @property {Axis} axis
+ * @property {"X" | "Y"} axis
  * @property {number} row
  * @property {number} t_s
  * @property {Place} place_um
  */
 
 /**
+ * A piece that comes free.
  * @typedef {object} Piece
  * @property {string} kind
  * @property {number} row
@@ -202,6 +225,15 @@
  */
 
 /**
+ * Questions of the scenario, those of any program, and which of these make a set.
+ * @typedef {object} Quiz
+ * @property {Question[]} own
+ * @property {Question[]} pool
+ * @property {number[][]} sets
+ */
+
+/**
+ * A question about a block.
  * @typedef {object} Question
  * @property {number} row
  * @property {number} block
@@ -211,7 +243,7 @@
  * @property {Said[]} answers
  * @property {number} right
  * @property {Said} why
- * @property {[number, number][]} hidden first character from the beginning of the block, and one past the last, of what tells the answer
+ * @property {[number, number][]} hidden where in the text of the block its answer stands: first character, one past the last
  */
 
 /**
@@ -231,6 +263,8 @@
  * @property {string | null} wire_y
  * @property {string} foot_row
  */
+
+/** Up to here. */
 
 /** @typedef {Finding & { t_s: number }} TimedFinding */
 
