@@ -68,11 +68,11 @@ def decoded(program: Program, contour: Toolpath) -> tuple[Decoded, ...]:
 def _ways(toolpath: Toolpath) -> Mapping[int, Way]:
     """Ways of the blocks, by their first characters in the text."""
     first, row, runs = np.unique(toolpath.source.span[:, 0], return_index=True, return_counts=True)
-    told = toolpath.compensation
+    compensation = toolpath.compensation
     stage = (
         None
-        if told is None
-        else _Stage(aside_ends(toolpath, told), _center_ends(toolpath), joint_kinds(toolpath, told))
+        if compensation is None
+        else _Stage(aside_ends(toolpath, compensation), _center_ends(toolpath), joint_kinds(toolpath, compensation))
     )
     found = zip(first.tolist(), row.tolist(), runs.tolist(), strict=True)
     return {first: _way(toolpath, row, runs, stage) for first, row, runs in found}

@@ -80,13 +80,13 @@ def entries_of(drive: Drive, words: StepWords | None = None) -> Entries:
     ends_at = np.minimum.reduceat(limits.border_um_s, kept_rows + 1)
     waits = np.add.reduceat(limits.wait_s, kept_rows + 1)
     ahead = np.append(limits.speed_um_s[kept_rows[1:]], np.inf)
-    told = ends_at < np.minimum(limits.speed_um_s[kept_rows], ahead)
-    told[-1] = False  # the list ends at the start speed by itself
+    is_told = ends_at < np.minimum(limits.speed_um_s[kept_rows], ahead)
+    is_told[-1] = False  # the list ends at the start speed by itself
     turns = _turns(toolpath.sweep_rad[kept_rows], drive.interpolation)
     row = np.repeat(kept_rows, turns)
     last = np.cumsum(turns) - 1
     end, wait = np.full(len(row), np.nan), np.zeros(len(row), dtype=np.int64)
-    end[last] = np.where(told, np.where(ends_at < STANDING_UM_S, 0.0, ends_at), np.nan) / UM_S_PER_PULSE_MS
+    end[last] = np.where(is_told, np.where(ends_at < STANDING_UM_S, 0.0, ends_at), np.nan) / UM_S_PER_PULSE_MS
     wait[last] = np.rint(waits * 1e3).astype(np.int64)
     origin = toolpath.start_um[0]
     return Entries(

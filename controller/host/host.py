@@ -50,8 +50,8 @@ class Host:
         self._entries = entries_of(drive, words)
         self._row_of = np.concatenate([[0], self._entries.row]).astype(np.int32)
         self._steps_words = words is not None
-        told = shapes_told(self._entries) if words is None else blocks_told(drive, self._entries, words)
-        self._told: list[tuple[float, ...]] = told
+        shapes = shapes_told(self._entries) if words is None else blocks_told(drive, self._entries, words)
+        self._told: list[tuple[float, ...]] = shapes
         self._end_s = drive.plan.time_at(np.cumsum(drive.limits.length_um)[self._entries.row])
         self._pushed = 0
         self._began_s: float | None = None

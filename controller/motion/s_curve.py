@@ -146,14 +146,14 @@ def s_curves(stretches: Stretches, border_um_s: Floats, jerk_um_s3: float) -> Ph
     end = np.where(steep, last, peak)
     rise = _ramp(first, peak, stretches.acceleration_um_s2, jerk_um_s3)
     fall = _ramp(np.where(steep, peak, last), peak, stretches.acceleration_um_s2, jerk_um_s3)
-    held = np.maximum(length - rise.span_um.sum(axis=1) - fall.span_um.sum(axis=1), 0.0)
-    held_time = np.divide(2.0 * held, peak + end, out=np.zeros_like(held), where=held > 0.0)
+    cruise_um = np.maximum(length - rise.span_um.sum(axis=1) - fall.span_um.sum(axis=1), 0.0)
+    held_time = np.divide(2.0 * cruise_um, peak + end, out=np.zeros_like(cruise_um), where=cruise_um > 0.0)
     braking = (end - peak) * (end + peak) / (2.0 * length)
-    zero = np.zeros_like(held)
-    jerk = np.full_like(held, jerk_um_s3)
+    zero = np.zeros_like(cruise_um)
+    jerk = np.full_like(cruise_um, jerk_um_s3)
     up, down = rise.top_um_s2, -fall.top_um_s2
     return Phases(
-        np.column_stack([rise.span_um, held, fall.span_um[:, ::-1]]),
+        np.column_stack([rise.span_um, cruise_um, fall.span_um[:, ::-1]]),
         np.column_stack([rise.time_s, held_time, fall.time_s]),
         np.column_stack([rise.speed_um_s[:, :3], peak, fall.speed_um_s[:, :0:-1]]),
         np.column_stack([zero, up, up, braking, zero, down, down]),
@@ -176,11 +176,11 @@ class _Ramp(NamedTuple):
 def _ramp(low: Floats, high: Floats, a: Floats, j: float) -> _Ramp:
     change = high - low
     bend = np.where(_is_short(change, a, j), np.sqrt(change / j), a / j)
-    held = np.where(_is_short(change, a, j), 0.0, change / a - a / j)
+    plateau_s = np.where(_is_short(change, a, j), 0.0, change / a - a / j)
     gained, cubic = j * bend**2 / 2.0, j * bend**3 / 6.0
     return _Ramp(
-        np.column_stack([low * bend + cubic, (low + change / 2.0) * held, high * bend - cubic]),
-        np.column_stack([bend, held, bend]),
+        np.column_stack([low * bend + cubic, (low + change / 2.0) * plateau_s, high * bend - cubic]),
+        np.column_stack([bend, plateau_s, bend]),
         np.column_stack([low, low + gained, high - gained, high]),
         j * bend,
     )

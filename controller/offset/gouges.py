@@ -207,13 +207,13 @@ def _groups(contour: Curves, path: Curves, cut: _Cut, offset_um: float, toleranc
     along_path = _links(cut.pair, cut.pair + rows, on < below)
     alone = cut.is_corner.copy()
     alone[np.concatenate(along_path)] = False
-    beside, _ = distance_to_curves(path, own, contour.end_um[row, 0], contour.end_um[row, 1])
+    distance_um, _ = distance_to_curves(path, own, contour.end_um[row, 0], contour.end_um[row, 1])
     after = (row + 1) % rows
-    this, other = _links(cut.pair, own * rows + after, beside < below)
+    this, other = _links(cut.pair, own * rows + after, distance_um < below)
     leaving, arriving = directions(contour)
     linked = (arriving[row] * leaving[after]).sum(axis=1)[this] > _WALL_COS
     for which in (this, other):
-        at_joint = np.abs(np.abs(cut.depth_um[which] - offset_um) - beside[this]) <= _EQUAL_UM
+        at_joint = np.abs(np.abs(cut.depth_um[which] - offset_um) - distance_um[this]) <= _EQUAL_UM
         linked |= alone[which] & at_joint
     return groups(len(own), np.append(along_path[0], this[linked]), np.append(along_path[1], other[linked]))
 

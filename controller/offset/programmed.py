@@ -50,19 +50,19 @@ def compensated(toolpath: Toolpath) -> Compensated:
     and vanish, as those of `compensate` do, by the program's own rules. Stretches in which the value of a register is
     not known stay as they are. Blocks without length do nothing.
     """
-    told = toolpath.compensation
-    if told is None:
+    compensation = toolpath.compensation
+    if compensation is None:
         raise ValueError("the toolpath tells of no compensation")
-    side = known_sides(told)
+    side = known_sides(compensation)
     row = np.flatnonzero(~idle_rows(toolpath, side))
-    blocks, side, left_um = toolpath.picked(row), side[row], told.left_um[row]
-    runs = runs_of(blocks, side, left_um, told.rules)
-    parts, gone = _parts(blocks, side, runs, told.rules)
+    blocks, side, left_um = toolpath.picked(row), side[row], compensation.left_um[row]
+    runs = runs_of(blocks, side, left_um, compensation.rules)
+    parts, gone = _parts(blocks, side, runs, compensation.rules)
     vanished = np.delete(np.arange(len(toolpath)), np.delete(row, gone))
     path = in_order(parts, vanished)
     return Compensated(
         path=replace(path, source_row=row[path.source_row]),
-        alarms=alarms_of(toolpath, told, runs, row, row[gone]),
+        alarms=alarms_of(toolpath, compensation, runs, row, row[gone]),
         stretches=stretches_of(runs, row),
     )
 

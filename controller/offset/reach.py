@@ -27,8 +27,8 @@ def stitched(cut: Slices, middle_um: Floats, clear_um: Floats, same_um: float) -
     same_um
         Slices between the same places whose middles are this near are one.
     """
-    kept = _balanced(cut, _without_copies(cut, middle_um, same_um), clear_um)
-    return _walks(kept, _next(cut.take(kept)))
+    pieces = _balanced(cut, _without_copies(cut, middle_um, same_um), clear_um)
+    return _walks(pieces, _next(cut.take(pieces)))
 
 
 def _without_copies(cut: Slices, middle_um: Floats, same_um: float) -> Ints:

@@ -68,13 +68,13 @@ def candidates(ring: ClosedContour, offset_um: float, side: Side) -> Candidates:
     """
     contour = ring.curves
     leaving, arriving = directions(contour)
-    kept, moved = _moved(contour, leaving, arriving, offset_um * side)
+    slices, moved = _moved(contour, leaving, arriving, offset_um * side)
     at, corners = _corners(contour, np.roll(leaving, -1, axis=0), arriving, offset_um * side)
-    order = np.argsort(np.concatenate([2 * kept, 2 * at + 1]), kind="stable")
+    order = np.argsort(np.concatenate([2 * slices, 2 * at + 1]), kind="stable")
     return Candidates(
         curves=joined([moved, corners]).picked(order),
-        source_row=ring.row[np.concatenate([kept, at])[order]],
-        corner=np.repeat([False, True], [len(kept), len(at)])[order],
+        source_row=ring.row[np.concatenate([slices, at])[order]],
+        corner=np.repeat([False, True], [len(slices), len(at)])[order],
     )
 
 

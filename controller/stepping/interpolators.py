@@ -198,7 +198,7 @@ class EqualTime:
 
     def _target(self, period: int, until_s: float, last: int) -> int:
         """The period to look ahead to: the one that a time lies in, or some more, soon asked for."""
-        asked = self._clock.first_from(min(until_s, last * self._clock.period_s) - self._clock.began_s)
+        first = self._clock.first_from(min(until_s, last * self._clock.period_s) - self._clock.began_s)
         ahead = period + self._ahead
         self._ahead = min(2 * self._ahead, _MOST_PERIODS)
-        return min(max(asked, ahead), last)
+        return min(max(first, ahead), last)

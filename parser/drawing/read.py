@@ -71,7 +71,7 @@ _WHY = {kind: why for why, kinds in _KINDS.items() for kind in kinds}
 class Wanted(NamedTuple):
     """Entities that are read, and those that are not, each with the reason."""
 
-    kept: list[Placed]
+    placed: list[Placed]
     left: list[tuple[Placed, str]]
 
 
@@ -86,7 +86,7 @@ def wanted_of(document: Document, placed: Sequence[Placed], layer: str | None) -
         if why:
             wanted.left.append((each_placed, why))
         else:
-            wanted.kept.append(each_placed)
+            wanted.placed.append(each_placed)
     return wanted
 
 
@@ -109,7 +109,7 @@ def left_out(wanted: Wanted, missed: Sequence[Missed]) -> Iterator[LeftOut]:
     for placed, why in wanted.left:
         yield LeftOut(entity_of(placed), why, place_of(placed.entity, placed.place))
     for each_missed in missed:
-        placed = wanted.kept[each_missed.entity]
+        placed = wanted.placed[each_missed.entity]
         why = each_missed.why or _WHY.get(placed.entity.dxftype(), "no-curve")
         yield LeftOut(entity_of(placed), why, place_of(placed.entity, placed.place), detail=each_missed.detail)
 
@@ -277,14 +277,14 @@ def _drawing(name: str, document: Document, read_with: _ReadWith, notes: list[Re
     placed = list(placed_entities(document, scaled(unit.um)))
     _refuse_unknown(document, placed, read_with.layer)
     wanted = wanted_of(document, placed, read_with.layer)
-    gathered = gather(wanted.kept, read_with.flatten_um, read_with.fit_um)
+    gathered = gather(wanted.placed, read_with.flatten_um, read_with.fit_um)
     left = tuple(left_out(wanted, gathered.counts.missed))
     if not len(gathered.curves):
         raise no_contour(left, read_with.layer)
     once = drawn_once(gathered.curves, gathered.entity)
     chained = chain(once.curves, np.unique(once.entity, return_inverse=True)[1], read_with.gap_um)
     contours = without_flat(once.curves, once.entity, chained.loops)
-    flat = [LeftOut(entity_of(wanted.kept[once.entity[each.row]]), each.why, each.place_um) for each in contours.flat]
+    flat = [LeftOut(entity_of(wanted.placed[once.entity[each.row]]), each.why, each.place_um) for each in contours.flat]
     number, entity = np.unique(contours.entity, return_inverse=True)
     drawing = Drawing(
         name=name,
@@ -292,12 +292,12 @@ def _drawing(name: str, document: Document, read_with: _ReadWith, notes: list[Re
         unit=unit.name,
         curves=welded(contours.curves, contours.loops),
         entity=entity.astype(np.int64),
-        entities=tuple(entity_of(wanted.kept[at]) for at in number.tolist()),
+        entities=tuple(entity_of(wanted.placed[at]) for at in number.tolist()),
         loops=contours.loops,
         flattened=gathered.counts.flattened,
         flatten_um=read_with.flatten_um,
         notes=(*notes, *([assumed] if assumed else []), *notes_of([*left, *flat], gathered, once.again, chained)),
-        left_out=(*left, *(_again(wanted.kept, again) for again in once.again), *flat),
+        left_out=(*left, *(_again(wanted.placed, again) for again in once.again), *flat),
         marks=marks_of(placed),
     )
     return drawing if read_with.fit_um is None else _with_arcs(drawing, read_with.fit_um, gathered.counts.fit_max_um)

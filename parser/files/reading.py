@@ -59,15 +59,15 @@ def read_stdin() -> bytes:
 
 def limit_mb() -> float:
     """Limit on the size of a file, MB. SettingsError where the environment gives one that is none."""
-    told = os.environ.get(LIMIT_NAME, "")
-    if not told:
+    setting = os.environ.get(LIMIT_NAME, "")
+    if not setting:
         return MOST_MB
     try:
-        limit = float(told)
+        limit = float(setting)
     except ValueError:
         limit = 0.0
     if not 0.0 < limit <= _HIGHEST_MB:
-        raise SettingsError("size-limit-no-number", name=LIMIT_NAME, most_mb=_HIGHEST_MB, found=told)
+        raise SettingsError("size-limit-no-number", name=LIMIT_NAME, most_mb=_HIGHEST_MB, found=setting)
     return limit
 
 

@@ -29,7 +29,7 @@ def read_iso(text: str, choices: Choices) -> ReadText:
     listing = checked(listing, family.profile)
     taken, path = _as_arcs_agree(listing, family, choices)
     besides = not_simulated(listing, taken.profile)
-    reading = _reading(listing, taken, path)._replace(not_simulated=besides.beside)
+    reading = _reading(listing, taken, path)._replace(not_simulated=besides.besides)
     of_text = (*listing.findings, *mode_findings(taken, path), *besides.findings)
     findings = (*(_by_row(finding, path.first_row) for finding in of_text), *path.findings, *_without_motion(path))
     ordered = tuple(sorted(findings, key=file_order))

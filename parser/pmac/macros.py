@@ -76,8 +76,8 @@ class _Expansion:
         if directive:
             self._directive(directive, at)
         if directive or not all(self.conditions):
-            kept = len(line.rstrip("\r\n"))
-            self._put(" " * kept + line[kept:], at)
+            length = len(line.rstrip("\r\n"))
+            self._put(" " * length + line[length:], at)
             return
         first = 0
         for name in _NAME.finditer(line) if self.names else ():

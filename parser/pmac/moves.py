@@ -277,8 +277,8 @@ class MovedLine:
         if state.ramp_ms == 0.0 and not state.is_steep_told:
             state.is_steep_told = True
             self._at("PMC209", self.line.pieces[0], word="TA0 TS0")
-        told = (center, radius, state.feed, state.ramp_ms, state.blends and motion > 0)
-        state.moves.append(Move(motion, state.place, end, *told, self.line, self.label, is_threaded))
+        row = (center, radius, state.feed, state.ramp_ms, state.blends and motion > 0)
+        state.moves.append(Move(motion, state.place, end, *row, self.line, self.label, is_threaded))
         state.place = end
 
     def _ends(self, *, absolute: bool) -> tuple[float, float]:
@@ -294,11 +294,11 @@ class MovedLine:
         return ends[0], ends[1]
 
     def _center(self) -> tuple[float, float]:
-        state, told = self.state, []
+        state, offsets = self.state, []
         for letter, place, shift in zip("IJ", state.place, state.shift, strict=True):
             word = self.words.get(letter)
-            told.append(_exact((from_mm(word.value) if word else 0.0) + (shift if state.absolute["R"] else place)))
-        return told[0], told[1]
+            offsets.append(_exact((from_mm(word.value) if word else 0.0) + (shift if state.absolute["R"] else place)))
+        return offsets[0], offsets[1]
 
     def _at(self, code: str, piece: Piece, **values: Value) -> None:
         self.state.finding(code, piece.span, values)

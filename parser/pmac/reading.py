@@ -33,9 +33,9 @@ def read_pmac(text: str) -> ReadText:
         raise ProgramError(no_program("no-motion-program", language="PMAC"))
     main = next((buffer for buffer in mains if buffer.number == read.started), mains[0])
     state = run(main, buffers, read.values, read.settings)
-    beside = _beside_findings(read, state)
+    besides = _beside_findings(read, state)
     if not state.moves:
-        raise ProgramError(*beside or (no_program("no-motion-program", language="PMAC"),))
+        raise ProgramError(*besides or (no_program("no-motion-program", language="PMAC"),))
     arcs = {row: arc_of(move) for row, move in enumerate(state.moves) if move.motion > 1}
     stops = [*state.stops, Stop("end", len(state.moves), main.lines[-1].line)]
     toolpath = path_of(read.lines.text, state.moves, arcs, stops)
@@ -47,7 +47,7 @@ def read_pmac(text: str) -> ReadText:
         *_text_findings(read, mains, main),
         *_line_findings(read, state),
         *_arc_findings(read, state, arcs, block),
-        *beside,
+        *besides,
     ]
     findings += [
         read.lines.finding(finding.code, state.moves[finding.row].at.span, block[finding.row], **finding.values)
@@ -97,8 +97,8 @@ def _setting(state: State, names: tuple[str, ...]) -> float | None:
 def _text_findings(read: Text, mains: list[Buffer], main: Buffer) -> Iterator[Finding]:
     """PMC101 and PMC103: what is nothing of the language, and buffers that hold more than is written."""
     for span in read.unread:
-        shown = printable(read.lines.text[slice(*span)])[:_MOST_SHOWN]
-        yield read.lines.finding("PMC101", span, text=shown).with_fact(DamagedBlock())
+        excerpt = printable(read.lines.text[slice(*span)])[:_MOST_SHOWN]
+        yield read.lines.finding("PMC101", span, text=excerpt).with_fact(DamagedBlock())
     for buffer in read.buffers:
         if not buffer.is_cleared and not read.is_power:
             yield read.lines.finding("PMC103", buffer.span, number=buffer.number, what="buffer-not-cleared")
@@ -113,8 +113,8 @@ def _beside_findings(read: Text, state: State) -> tuple[Finding, ...]:
     """PMC107 where nobody knows how the program goes on; else at the first piece with a curve of its own."""
     if state.halt is not None:
         at, why, what, more = state.halt.span, state.halt.why, state.halt.what, 0
-    elif state.beside:
-        at, why, what, more = state.beside[0].span, "pmac-beside", "", len(_places(state)) - 1
+    elif state.besides:
+        at, why, what, more = state.besides[0].span, "pmac-beside", "", len(_places(state)) - 1
     else:
         return ()
     found = read.lines.finding("PMC107", at, text=_excerpt(read, at), why=why, what=what, more=more)
@@ -124,7 +124,7 @@ def _beside_findings(read: Text, state: State) -> tuple[Finding, ...]:
 def _places(state: State) -> tuple[Span, ...]:
     """Where pieces stand that are not simulated, each once however often it runs."""
     halted = (state.halt.span,) if state.halt else ()
-    return tuple(dict.fromkeys((*(piece.span for piece in state.beside), *halted)))
+    return tuple(dict.fromkeys((*(piece.span for piece in state.besides), *halted)))
 
 
 def _excerpt(read: Text, span: Span) -> str:
@@ -140,7 +140,7 @@ def _not_simulated(read: Text, state: State) -> BesideThePath:
 
 def _line_findings(read: Text, state: State) -> Iterator[Finding]:
     """What the lines themselves have wrong, and PMC106 for axes beside the plane."""
-    for each in state.told.values():
+    for each in state.faults_by_span.values():
         found = read.lines.finding(each.code, each.span, 0, **each.values)
         yield found.with_fact(each.fact) if each.fact else found
     others = list(state.others.values())

@@ -276,7 +276,7 @@ class _Runner:
         if piece.name == NAMED_ELSEWHERE:
             self._halt(order, "pmac-included")
         else:
-            self.state.beside.append(piece)
+            self.state.besides.append(piece)
 
     def _halt(self, order: Order, why: str, what: str = "") -> None:
         self.frames[-1].line = None  # what the line moves is not known

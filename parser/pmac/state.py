@@ -97,14 +97,14 @@ class State:
     others: dict[tuple[str, Span], Piece] = field(default_factory=dict)
     moves: list[Move] = field(default_factory=list)
     stops: list[Stop] = field(default_factory=list)
-    told: dict[tuple[str, Span], LineFault] = field(default_factory=dict)
-    beside: list[Piece] = field(default_factory=list)
+    faults_by_span: dict[tuple[str, Span], LineFault] = field(default_factory=dict)
+    besides: list[Piece] = field(default_factory=list)
     halt: Halt | None = None
     is_steep_told: bool = False
 
     def finding(self, code: str, span: Span, values: Mapping[str, Value], fact: Fact | None = None) -> None:
         """What is wrong with a line, once a place however often a loop runs it."""
-        self.told.setdefault((code, span), LineFault(code, span, values, fact))
+        self.faults_by_span.setdefault((code, span), LineFault(code, span, values, fact))
 
     @property
     def ramp_ms(self) -> float:

@@ -44,10 +44,10 @@ _CELLS = 1 << 31  # more cells than any path has across
 def edges_of(toolpath: Toolpath, stretches: Stretches) -> Ints:
     """Which edge each stretch (k,) runs over: the number of the first stretch over it."""
     this, other = _alike(toolpath, stretches)
-    beside = run_beside(toolpath, stretches, this, other)
+    parallel = run_beside(toolpath, stretches, this, other)
     back = run_beside(toolpath, stretches, other, this)
-    share = np.minimum(beside.share, back.share)
-    mates = (share >= _LEAST_SHARE) & (np.abs(beside.sense) >= _LEAST_SENSE)
+    share = np.minimum(parallel.share, back.share)
+    mates = (share >= _LEAST_SHARE) & (np.abs(parallel.sense) >= _LEAST_SENSE)
     edge = list(range(len(stretches.first)))
     for early, late in zip(this[mates].tolist(), other[mates].tolist(), strict=True):
         here, there = _root(edge, early), _root(edge, late)
@@ -175,13 +175,13 @@ def find_cuts(toolpath: Toolpath, contour: Ints) -> Cuts:
     sections = _open(toolpath, contour, loops, edge)
     opened = np.array(sorted(sections), dtype=np.int64)
     together = np.isin(loops.contour, loops.contour[is_trimmed]) & ~np.isin(loops.contour, opened)
-    kept = loops.take(together & (is_sure | is_trimmed))
-    others = _without(np.arange(contour.max(initial=-1) + 1), np.concatenate([opened, kept.contour]))
+    passes = loops.take(together & (is_sure | is_trimmed))
+    others = _without(np.arange(contour.max(initial=-1) + 1), np.concatenate([opened, passes.contour]))
     elsewhere = cut_elsewhere(toolpath, contour, sections, others)
     others = _without(others, np.array(sorted(elsewhere), dtype=np.int64))
     rows = [(each, at, several[0].first) for at, several in sections.items() for each in several]
     rows += [(each, at, sections[of][0].first) for at, (of, several) in elsewhere.items() for each in several]
-    found = _joined(kept, _of_sections(rows), *_cut_once(toolpath, contour, others))
+    found = _joined(passes, _of_sections(rows), *_cut_once(toolpath, contour, others))
     return found.take(np.argsort(found.first))
 
 

@@ -177,9 +177,9 @@ def _common(toolpath: Toolpath, early: Ints, late: Ints, least_um: float = LEAST
     like = row[np.abs(aside - usual) <= max(CLOSED_WITHIN_UM, 0.4 * abs(usual))]
     if not len(like):
         return late[:0]
-    held = np.arange(like[0], like[-1] + 1)
-    share = toolpath.length_um[like].sum() / toolpath.length_um[held].sum()
-    return held if share >= _LEAST_SHARE else late[:0]
+    stretch = np.arange(like[0], like[-1] + 1)
+    share = toolpath.length_um[like].sum() / toolpath.length_um[stretch].sum()
+    return stretch if share >= _LEAST_SHARE else late[:0]
 
 
 def _row_by_row(toolpath: Toolpath, early: Ints, late: Ints) -> tuple[Ints, Floats, Ints]:
@@ -207,12 +207,12 @@ def _sections(toolpath: Toolpath, low: int, past: int, edge: Ints) -> list[Secti
 def _between_ends(toolpath: Toolpath, low: int, past: int, edge: Ints) -> list[tuple[Section, bool]]:
     """What runs between the ends of the open edge of the rows `edge`, and whether it runs beside it."""
     corner = np.concatenate([toolpath.start_um[low:past], toolpath.end_um[past - 1 : past]])
-    beside = np.zeros(past - low, dtype=np.bool_)
-    beside[_row_by_row(toolpath, edge, np.arange(low, past))[0] - low] = True
+    is_near = np.zeros(past - low, dtype=np.bool_)
+    is_near[_row_by_row(toolpath, edge, np.arange(low, past))[0] - low] = True
     found: list[tuple[Section, bool]] = []
     for (here, _, leave), (there, arrive, _) in pairwise(_visits(toolpath, corner, edge)):
         length = toolpath.length_um[low + leave : low + arrive]
-        share = float(length[beside[leave:arrive]].sum() / max(float(length.sum()), 1.0))
+        share = float(length[is_near[leave:arrive]].sum() / max(float(length.sum()), 1.0))
         is_beside = share >= _LEAST_SHARE
         if (is_beside or here != there) and not _by_hole(corner, leave, arrive):
             found.append((Section(low + leave, low + arrive - 1, False), is_beside))

@@ -105,8 +105,10 @@ def _running_beside(toolpath: Toolpath, row: Ints, at: Ints, place_um: Floats, w
     ahead = (along * out).sum(axis=1)
     cosine = (along * heading).sum(axis=1)
     # A foot at the end of a row lies aside, not ahead, where the row runs beside the place.
-    beside = (np.abs(cosine) >= _SAME_WAY) & (np.abs(aside) <= BESIDE_UM) & (np.abs(ahead) <= 0.5 * np.abs(aside) + 5.0)
-    which = np.flatnonzero(beside)
+    is_near = (
+        (np.abs(cosine) >= _SAME_WAY) & (np.abs(aside) <= BESIDE_UM) & (np.abs(ahead) <= 0.5 * np.abs(aside) + 5.0)
+    )
+    which = np.flatnonzero(is_near)
     return Neighbours(at[which], row[which], aside[which], np.sign(cosine[which]).astype(np.int64))
 
 

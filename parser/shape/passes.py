@@ -151,9 +151,9 @@ def _senses(toolpath: Toolpath, cuts: Cuts, edge: Ints) -> Ints:
     A tab is cut from the end of the first one on to its start, or the other way.
     """
     other = np.flatnonzero((edge != np.arange(len(edge))) & ~cuts.is_tab)
-    beside = run_beside(toolpath, cuts.stretches, edge[other], other)
+    parallel = run_beside(toolpath, cuts.stretches, edge[other], other)
     sense = np.ones(len(edge), dtype=np.int64)
-    sense[other[beside.sense < 0.0]] = -1
+    sense[other[parallel.sense < 0.0]] = -1
     tab = np.flatnonzero(cuts.is_tab)
     start = toolpath.start_um[cuts.first[tab]]
     from_start = np.hypot(*(start - toolpath.start_um[cuts.first[edge[tab]]]).T)

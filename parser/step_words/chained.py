@@ -164,7 +164,7 @@ def chained_words(curves: Curves, told_um: Floats, is_placed: Bools) -> Chained:
     words = _arcs(curves, told_um)
     again, ends = _told_in_turn(curves, told_um, is_placed, moves(words).by_um)
     if again:
-        rows, blocks = list(again), zip(*(told[: len(_TOLD)] for told in again.values()), strict=True)
+        rows, blocks = list(again), zip(*(of_row[: len(_TOLD)] for of_row in again.values()), strict=True)
         for name, column in zip(_TOLD, blocks, strict=True):
             getattr(words, name)[rows] = column
     lines = words_of_lines(np.diff(ends, axis=0, prepend=curves.start_um[:1]))
@@ -197,8 +197,8 @@ def _told_in_turn(
         else:
             begin, at = at, (at[0] + by[0], at[1] + by[1])
             if _off(at, end) > _LET_BE_UM:
-                told = again[row] = _arc_from(curves, told_um, row, begin)
-                at = begin[0] + told.by_um[0], begin[1] + told.by_um[1]
+                words = again[row] = _arc_from(curves, told_um, row, begin)
+                at = begin[0] + words.by_um[0], begin[1] + words.by_um[1]
         ends.append(at)
     return again, np.array(ends).reshape(-1, 2)
 
@@ -208,9 +208,9 @@ def _arc_from(curves: Curves, told_um: Floats, row: int, at: Place) -> OneBlock:
     (x, y), (told_x, told_y) = curves.end_um[row].tolist(), told_um[row].tolist()
     by, sweep = (x - at[0], y - at[1]), float(curves.sweep_rad[row])
     if not math.isnan(told_x):
-        told = told_arc_of((-told_x, -told_y), by, sweep)
-        if _off((at[0] + told.by_um[0], at[1] + told.by_um[1]), (x, y)) <= _FAR_UM:
-            return told
+        words = told_arc_of((-told_x, -told_y), by, sweep)
+        if _off((at[0] + words.by_um[0], at[1] + words.by_um[1]), (x, y)) <= _FAR_UM:
+            return words
     center_x, center_y = curves.center_um[row].tolist()
     out = at[0] - center_x, at[1] - center_y
     return arc_of(out, (out[0] + by[0], out[1] + by[1]), sweep)

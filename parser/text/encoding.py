@@ -155,10 +155,10 @@ def harmless(line: str) -> str:
 
     A line feed is no part of a line: it becomes U+FFFD like all other controls.
     """
-    shown = printable(line)
-    if ":" not in shown and "#" not in shown:
-        return shown
-    return _COMMAND.sub(REPLACED, _AT_START.sub(rf"\1{REPLACED}", shown, count=1) if _AT_START.match(shown) else shown)
+    safe = printable(line)
+    if ":" not in safe and "#" not in safe:
+        return safe
+    return _COMMAND.sub(REPLACED, _AT_START.sub(rf"\1{REPLACED}", safe, count=1) if _AT_START.match(safe) else safe)
 
 
 def escaped(text: str, escape: Callable[[str], str]) -> str:
@@ -167,7 +167,7 @@ def escaped(text: str, escape: Callable[[str], str]) -> str:
 
 
 def _escaped(line: str, escape: Callable[[str], str]) -> str:
-    shown = harmless(line)
-    if shown == line:
+    safe = harmless(line)
+    if safe == line:
         return line
-    return "".join(char if char == kept else escape(char) for char, kept in zip(line, shown, strict=True))
+    return "".join(char if char == safe_char else escape(char) for char, safe_char in zip(line, safe, strict=True))

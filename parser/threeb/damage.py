@@ -83,12 +83,12 @@ def _other_text(text: str, first: int, past: int) -> Iterator[Unread]:
     inked = _INKED_LINE.search(text, first, past)
     if not inked:
         return
-    shown = inked[0].rstrip()
-    span = inked.start(), inked.start() + len(shown)
-    if _BLOCK_WORD.search(shown):
-        yield _wrong(span[0], shown, (0, len(shown)), "field-b", "wanted-b")
+    excerpt = inked[0].rstrip()
+    span = inked.start(), inked.start() + len(excerpt)
+    if _BLOCK_WORD.search(excerpt):
+        yield _wrong(span[0], excerpt, (0, len(excerpt)), "field-b", "wanted-b")
     else:
-        yield Unread(span, 0, is_block=False, values={"text": _shortened(shown)})
+        yield Unread(span, 0, is_block=False, values={"text": _shortened(excerpt)})
 
 
 def _damaged_block(base: int, piece: str) -> Unread:

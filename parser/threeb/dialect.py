@@ -93,10 +93,10 @@ def _up_to_end(records: Records) -> tuple[Records, list[Finding], int]:
     if end is None:
         return records._replace(marks=marks), [], 0
     first = end.span[0]
-    kept = records._replace(
+    up_to_end = records._replace(
         blocks=RawBlocks._make(column[: end.after] for column in records.blocks),
         marks=marks[: marks.index(end) + 1],
         damages=tuple(damage for damage in records.damages if damage.span[0] < first),
         findings=tuple(finding for finding in records.findings if finding.span[0] < first),
     )
-    return kept, lost_blocks(records, end), len(damaged_after(records, end))
+    return up_to_end, lost_blocks(records, end), len(damaged_after(records, end))

@@ -231,7 +231,7 @@ def with_rapid_to_start(draft: Draft) -> Draft:
     curves = draft.curves
     rapid = curves_between(np.zeros((1, 2)), curves.start_um[:1], np.full((1, 2), np.nan), np.zeros(1))
     rapid.kind[:] = CurveKind.JUMP
-    told = draft.compensation and replace(
+    compensation = draft.compensation and replace(
         draft.compensation,
         side=np.append(0, draft.compensation.side),
         by_um=np.append(0.0, draft.compensation.by_um),
@@ -245,7 +245,7 @@ def with_rapid_to_start(draft: Draft) -> Draft:
         is_placed=np.append(False, draft.is_placed),
         told_um=np.concatenate([np.full((1, 2), np.nan), draft.told_um]),
         words=None,
-        compensation=told,
+        compensation=compensation,
     )
 
 

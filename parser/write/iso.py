@@ -44,15 +44,15 @@ def sides_of(compensation: Compensation | None, choices: IsoChoices) -> Sides:
     if compensation is None:
         return sides
     names = _names(compensation, choices)
-    held: dict[str, float] = {}
+    in_force: dict[str, float] = {}
     changes = _changes(compensation, names)
     if changes and choices.habits.offset_on:
         sides.before[changes[0]] = [choices.habits.offset_on]
     for row in changes:
         side, name, by_um = int(compensation.side[row]), names[row], float(compensation.by_um[row])
-        if side and not np.isnan(by_um) and held.get(name) != by_um:
+        if side and not np.isnan(by_um) and in_force.get(name) != by_um:
             _tell_value(sides, row, name, by_um, choices)
-            held[name] = by_um
+            in_force[name] = by_um
         words = [_SIDES[side], name] if side and name else [_SIDES[side]]
         if choices.habits.side_alone:
             sides.before.setdefault(row, []).append(" ".join(words))

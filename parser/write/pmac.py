@@ -108,9 +108,9 @@ def _with_move(block: DecodedBlock) -> GBlock | None:
 
 def _dwell_ms(block: DecodedBlock) -> float:
     """A dwell: X in seconds; P in seconds with a point, else in ms."""
-    told = next((step for step in block.steps if step.word.upper().startswith(("P", "X"))), None)
-    number = float(told.word[1:]) if told else 0.0
-    return number if told and told.word[0] in "Pp" and "." not in told.word else number * 1000.0
+    dwell = next((step for step in block.steps if step.word.upper().startswith(("P", "X"))), None)
+    number = float(dwell.word[1:]) if dwell else 0.0
+    return number if dwell and dwell.word[0] in "Pp" and "." not in dwell.word else number * 1000.0
 
 
 def _head(card: Card) -> Iterator[str]:
@@ -144,10 +144,10 @@ def _native(blocks: Sequence[GBlock]) -> Iterator[str]:
         yield "NORMAL K-1"
     motion = ""
     for block in blocks:
-        told = _distance(block) or distance
-        if told != distance:
-            yield told
-        distance = told
+        native = _distance(block) or distance
+        if native != distance:
+            yield native
+        distance = native
         now = next((_MOTIONS[number] for number in reversed(block.g) if number in _MOTIONS), motion)
         words = _words(block)
         if words and _PLACE not in block.g:
@@ -220,9 +220,9 @@ def _times_ms(blocks: Sequence[GBlock]) -> Iterator[float]:
         motion = next((number for number in block.g if number in _MOTIONS), motion)
         feed = feed if block.feed is None else block.feed
         before = place if absolute or _PLACE in block.g else (0.0, 0.0)
-        told = (block.lengths.get("X", before[0]), block.lengths.get("Y", before[1]))
-        by = (told[0] - before[0], told[1] - before[1])
+        times = (block.lengths.get("X", before[0]), block.lengths.get("Y", before[1]))
+        by = (times[0] - before[0], times[1] - before[1])
         moved = math.hypot(*by)
-        place = told if absolute or _PLACE in block.g else (place[0] + by[0], place[1] + by[1])
+        place = times if absolute or _PLACE in block.g else (place[0] + by[0], place[1] + by[1])
         if moved and motion and feed and _PLACE not in block.g:
             yield from_mm(moved) / UM_PER_MM / feed * 60_000.0

@@ -116,6 +116,6 @@ def _to_center(draft: Draft, start: Ints, places: Ints, step_um: float) -> Ints:
         return np.zeros((0, 2), dtype=np.int64)
     shift = places[0] * step_um - draft.curves.start_um[0]
     exact = draft.curves.center_um + shift - start * step_um
-    told = np.isnan(draft.told_um) | (step_um > 1.0)
-    by: Floats = np.where(told, exact, draft.told_um)
+    is_written = np.isnan(draft.told_um) | (step_um > 1.0)
+    by: Floats = np.where(is_written, exact, draft.told_um)
     return np.nan_to_num(np.rint(by / step_um)).astype(np.int64)

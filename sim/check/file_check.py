@@ -90,20 +90,20 @@ def check_program(program: Program, settings: CheckSettings = _DEFAULTS) -> Chec
 
 def result_of(program: Program, checked: Checked, settings: CheckSettings) -> CheckResult:
     """Result of a program of which the checks are done: what settings and its remarks silence is left out."""
-    shown, silenced = sifted(program, checked.findings, checked.coverage.checks, settings)
+    listed, silenced = sifted(program, checked.findings, checked.coverage.checks, settings)
     return CheckResult(
         name=program.name,
         encoding=program.encoding,
         dialect=program.reading.dialect,
-        findings=shown,
-        excerpts=_excerpts(program.lines, program.text, shown),
+        findings=listed,
+        excerpts=_excerpts(program.lines, program.text, listed),
         coverage=checked.coverage,
         length_um=float(program.toolpath.length_um.sum()),
         steps=len(checked.steps) if checked.steps is not None else 0,
         fail_on=settings.fail_on,
         settings_file=settings.file,
         silenced=silenced,
-        blocks=_blocks(program.toolpath.source, shown),
+        blocks=_blocks(program.toolpath.source, listed),
         assumptions=program.reading.assumptions,
         programmed=_programmed(program) if checked.steps is not None else None,
     )
@@ -143,12 +143,12 @@ def _unreadable(job: Job, data: bytes, why: Finding, others: tuple[Finding, ...]
         text, _ = decode_text(data)
         excerpts = _excerpts(LineIndex(text), text, findings)
     damaged = len(list(telling(others, DamagedBlock)))
-    shown, silenced = chosen(others, job.settings)
+    listed, silenced = chosen(others, job.settings)
     return CheckResult(
         name=job.name,
         encoding="",
         dialect="",
-        findings=(why, *shown),
+        findings=(why, *listed),
         excerpts=excerpts,
         coverage=Coverage(damaged, 0, 0, 0, _none_made("reason-unreadable")),
         length_um=0.0,

@@ -47,11 +47,11 @@ def sense_findings(program: Program, contour: Ints) -> list[Finding]:
 
 def _by_side(toolpath: Toolpath, contour: Ints) -> Ints:
     """Contour numbers (n,) that begin anew where compensation changes sides, and stay −1."""
-    told = toolpath.compensation
-    if told is None:
+    compensation = toolpath.compensation
+    if compensation is None:
         return contour
     changes = np.diff(contour, prepend=-1) != 0
-    changes |= np.diff(told.side * np.where(told.by_um < 0.0, -1, 1), prepend=0) != 0
+    changes |= np.diff(compensation.side * np.where(compensation.by_um < 0.0, -1, 1), prepend=0) != 0
     return np.where(contour >= 0, np.cumsum(changes), -1)
 
 

@@ -20,19 +20,19 @@ def header_offset_findings(
     known. Programs of several passes have one offset in
     their header and several in their paths: they are not judged.
     """
-    told, span = program.header.get("offset_um"), program.reading.offset_span
-    if not isinstance(told, float) or span is None or _is_four_b(program).any():
+    offset_um, span = program.header.get("offset_um"), program.reading.offset_span
+    if not isinstance(offset_um, float) or span is None or _is_four_b(program).any():
         return []
-    values: dict[str, Value] = {"header": abs(told)}
+    values: dict[str, Value] = {"header": abs(offset_um)}
     if added_um is not None:
         values["added"] = added_um
-        return [program.lines.finding("3B506", span, 0, **values)] if told != 0.0 else []
+        return [program.lines.finding("3B506", span, 0, **values)] if offset_um != 0.0 else []
     if reach_um is None or not _one_pass(passes):
         return []
     values["reach"] = reach_um
-    if told == 0.0:
+    if offset_um == 0.0:
         return [program.lines.finding("3B111", span, 0, **values)]
-    differs = abs(abs(told) - reach_um) > TOLERANCE_UM
+    differs = abs(abs(offset_um) - reach_um) > TOLERANCE_UM
     return [program.lines.finding("3B112", span, 0, **values)] if differs else []
 
 

@@ -23,7 +23,7 @@ class MendedText(NamedTuple):
         The text and its bytes; as they were where nothing is certain, or a mend would bring a new error.
     edits
         What makes the text of the program as read, none of them touching another.
-    findings, shown
+    findings, listed
         All findings of the program as it was, with their edits, and those of them that nothing silences.
     """
 
@@ -31,7 +31,7 @@ class MendedText(NamedTuple):
     data: bytes
     edits: tuple[Edit, ...]
     findings: tuple[Finding, ...]
-    shown: tuple[Finding, ...]
+    listed: tuple[Finding, ...]
 
 
 def mended_text(program: Program, settings: CheckSettings, known: frozenset[str] = frozenset()) -> MendedText:

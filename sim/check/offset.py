@@ -80,12 +80,12 @@ def gouge_findings(
 
     Where several passes cut into one block beside the same other, only the pass that cuts deepest is told.
     """
-    told: dict[tuple[int, int], dict[int, list[Gouge]]] = {}
+    by_blocks: dict[tuple[int, int], dict[int, list[Gouge]]] = {}
     for gouge in gouges:
         row, number = path.source_row[gouge.path_row], int(passed.number[gouge.row])
         pair = int(passed.row[row]), int(passed.row[gouge.row])
-        told.setdefault(pair, {}).setdefault(number, []).append(gouge)
-    for (row, into), by_pass in told.items():
+        by_blocks.setdefault(pair, {}).setdefault(number, []).append(gouge)
+    for (row, into), by_pass in by_blocks.items():
         deepest = max(by_pass, key=lambda number: max(gouge.depth_um for gouge in by_pass[number]))
         for gouge in by_pass[deepest]:
             number = deepest + 1 if len(offset.passes) > 1 else 0

@@ -36,17 +36,17 @@ def _elsewhere(jobs: Sequence[Job], pool: Pool) -> Iterator[tuple[int, CheckResu
 
 def _sent(jobs: Sequence[Job], unreadable: list[int]) -> Iterator[tuple[int, tuple[Maker, Job]]]:
     """Numbers of the jobs, and each with the bytes of its file and who asks; fills in which cannot be read."""
-    asked = made_by()
+    digest = made_by()
     for number, job in enumerate(jobs):
         try:
             data = read_bytes(job.source) if isinstance(job.source, Path) else job.source
         except FileUnreadableError:
             unreadable.append(number)
         else:
-            yield number, (asked, job._replace(source=data))
+            yield number, (digest, job._replace(source=data))
 
 
 def _check_sent(task: tuple[Maker, Job]) -> CheckResult:
-    asked, job = task
-    refuse_other_makers(asked)
+    digest, job = task
+    refuse_other_makers(digest)
     return check_any(job)

@@ -116,12 +116,12 @@ class PathChecks:
         return stepped_end_findings(self._program, self._steps)
 
     def _own_compensation(self) -> "OwnCompensation | None":
-        told = compensation_of(self._program.toolpath)
-        if told is None:
+        compensation = compensation_of(self._program.toolpath)
+        if compensation is None:
             return None
         from sim.check.compensation.check import own_compensation  # noqa: PLC0415 - other programs start sooner without
 
-        return own_compensation(self._program, told, self._rows >= 0)
+        return own_compensation(self._program, compensation, self._rows >= 0)
 
     def _over_edges(self) -> Iterator[Finding]:
         """Findings about passes over one edge: as they are programmed, as the wire runs, and what they leave uncut."""
@@ -149,8 +149,8 @@ class PathChecks:
     @property
     def _without_value(self) -> str:
         """Why the compensation is not all worked out; empty where it is."""
-        told = compensation_of(self._program.toolpath)
-        return "" if told is None or is_known(told) else "reason-no-register"
+        compensation = compensation_of(self._program.toolpath)
+        return "" if compensation is None or is_known(compensation) else "reason-no-register"
 
     @property
     def _left_out(self) -> str:
@@ -162,8 +162,10 @@ class PathChecks:
     @property
     def _offset_um(self) -> float | None:
         """What the controller adds: as asked for, as the header says, or as the wire needs it."""
-        told = self._program.header.get("offset_um")
-        return self._demands.added_um or (told if isinstance(told, float) and told > 0.0 else self._demands.offset_um)
+        header_um = self._program.header.get("offset_um")
+        return self._demands.added_um or (
+            header_um if isinstance(header_um, float) and header_um > 0.0 else self._demands.offset_um
+        )
 
     def _asked_for(self) -> Iterator[Finding]:
         """Checks that need to know the wire or the machine."""
@@ -227,5 +229,5 @@ def state_of(program: Program, name: Check, reason: str) -> CheckState:
         return CheckState(name, "not asked", causeless)
     if not reason:
         return CheckState(name, "complete")
-    beside = program.reading.not_simulated
-    return CheckState(name, "incomplete", reason, beside.words if reason == beside.reason else ())
+    not_simulated = program.reading.not_simulated
+    return CheckState(name, "incomplete", reason, not_simulated.words if reason == not_simulated.reason else ())

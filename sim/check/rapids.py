@@ -93,8 +93,8 @@ def uncut_jump_findings(program: Program, contour: Ints, passes: Passes) -> list
         if _distance(toolpath, arrival, np.arange(first[here], begin)) > _APART_UM:
             way = float(toolpath.length_um[begin:arrival].sum())
             jump = program.reading.spelling.jump
-            told = at_block(toolpath, program.lines, "3B310", begin, length=way, jump=jump)
-            found.append(told.with_fact(WrongBlock()))
+            finding = at_block(toolpath, program.lines, "3B310", begin, length=way, jump=jump)
+            found.append(finding.with_fact(WrongBlock()))
     return found
 
 

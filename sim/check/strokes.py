@@ -296,9 +296,9 @@ def doubled_findings(program: Program, rows: Ints, passes: Passes) -> Iterator[F
     same &= (toolpath.length_um[1:] > _SHORT_UM) & (toolpath.kind[1:] == toolpath.kind[:-1])
     same &= toolpath.is_jump[1:] | ((rows[1:] >= 0) & (rows[1:] == rows[:-1]))
     same &= (passes.of_row[1:] < 0) | (passes.of_row[:-1] < 0)
-    told = toolpath.compensation
-    if told is not None:  # a lead is halved where its offset changes
-        same &= (told.side[1:] == told.side[:-1]) & (told.by_um[1:] == told.by_um[:-1])
+    compensation = toolpath.compensation
+    if compensation is not None:  # a lead is halved where its offset changes
+        same &= (compensation.side[1:] == compensation.side[:-1]) & (compensation.by_um[1:] == compensation.by_um[:-1])
     parted = {stop.after for stop in toolpath.stops}
     for row in (1 + np.flatnonzero(same)).tolist():
         if row not in parted:

@@ -41,16 +41,16 @@ def replay(log: Path, as_json: bool) -> None:
     from controller.card.log.replay import replay_file
 
     done = replay_file(log)
-    shown: list[Difference] = []
+    differences: list[Difference] = []
     count = 0
     for difference in done:
         count += 1
         if count <= SHOWN:
-            shown.append(difference)
+            differences.append(difference)
     if as_json:
-        write(_json(str(log), done, count, shown), "json")
+        write(_json(str(log), done, count, differences), "json")
     else:
-        for line in _text(str(log), done, count, shown):
+        for line in _text(str(log), done, count, differences):
             say(line)
     raise click.exceptions.Exit(1 if count else 0)
 
@@ -116,8 +116,8 @@ def run(  # noqa: PLR0913 - click hands over each option by its name
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     from sim.cli.card_client import ClientOptions, run_client
 
-    asked = ClientOptions(command, output, library, settings, call_s, longest_s, machine)
-    raise click.exceptions.Exit(run_client(asked, as_json=as_json))
+    client = ClientOptions(command, output, library, settings, call_s, longest_s, machine)
+    raise click.exceptions.Exit(run_client(client, as_json=as_json))
 
 
 def _text(name: str, done: "Replay", count: int, shown_differences: "list[Difference]") -> Iterator[str]:

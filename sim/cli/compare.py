@@ -62,9 +62,9 @@ def compare(
         raise click.MissingParameter(param_hint="DRAWING.dxf", param_type="argument")
     program = _program(scenario)
     offset_um, source = _offset(given.plain, program, scenario)
-    shown = read_drawing(drawing.file, layer=drawing.layer, gap_um=drawing.gap_um)
-    asked = FitRequest(drawing.tolerance_um, drawing.fit, drawing.sharp_corners)
-    done = compare_program(program.toolpath, offset_um, shown, asked)
+    drawn = read_drawing(drawing.file, layer=drawing.layer, gap_um=drawing.gap_um)
+    request = FitRequest(drawing.tolerance_um, drawing.fit, drawing.sharp_corners)
+    done = compare_program(program.toolpath, offset_um, drawn, request)
     if as_json:
         write(document_text(done), "json")
     else:
@@ -108,8 +108,8 @@ def _offset(given: float | None, program: "Program", scenario: "Scenario") -> tu
 
     if given is not None:
         return given, words()("compare.as-given", offset=f"{mm(given):g}")
-    told = program.header.get("offset_um")
-    if isinstance(told, float) and told and scenario.offset is None:
-        offset_um = abs(told)
+    header_um = program.header.get("offset_um")
+    if isinstance(header_um, float) and header_um and scenario.offset is None:
+        offset_um = abs(header_um)
         return offset_um, words()("compare.of-header", offset=f"{mm(offset_um):g}")
     return scenario.wire.reach_um, words()("compare.of-wire", offset=f"{mm(scenario.wire.reach_um):g}")

@@ -96,14 +96,14 @@ def convert(path: Path, output: Path, **options: Any) -> None:
     from sim.show.terminal.streams import outlet
     from sim.show.terminal.wrap import width_of
 
-    asked = _ConvertOptions(**options)
-    language = asked.to or _language(output)
-    _refuse_misfits(asked, language)
-    given = offsets_of(asked.offset)
+    conversion = _ConvertOptions(**options)
+    language = conversion.to or _language(output)
+    _refuse_misfits(conversion, language)
+    given = offsets_of(conversion.offset)
     tongue: Tongue = spoken()
     try:
-        program = _with_offset(read_program(path, _choices(asked, language, given)), given, asked.side)
-        wanted = _wanted(asked, language, program, given)
+        program = _with_offset(read_program(path, _choices(conversion, language, given)), given, conversion.side)
+        wanted = _wanted(conversion, language, program, given)
         done = converted(program, wanted)
     except ProgramError as error:
         for line in describe(str(path), error):

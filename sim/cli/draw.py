@@ -85,11 +85,11 @@ def draw(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     from sim.show.pictures.files import write_pictures
     from sim.show.terminal.printer import say
 
-    asked = _picture_files(output, names, svg)
+    files = _picture_files(output, names, svg)
     scenario = overridden(path, Overrides(**options))
     try:
-        with _drawn_from(asked, scenario) as (shown, findings):
-            written = write_pictures(shown, asked, size, theme, spoken())
+        with _drawn_from(files, scenario) as (subject, findings):
+            written = write_pictures(subject, files, size, theme, spoken())
     except ProgramError as error:
         raise refused(scenario, error) from None
     say(words()("commands.written", names=", ".join(map(str, written))))

@@ -53,10 +53,10 @@ def drill(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     from sim.teach.drill.drills import DrillRequest
 
     choices = Choices(dialect=dialect or "", unit=unit or "", registers=registers)
-    asked = DrillRequest(number, count, None if level is None else _LEVELS[level])
+    request = DrillRequest(number, count, None if level is None else _LEVELS[level])
     program = _read(path, choices)
     _refuse_own_file(path, output, program, count)
-    drills = _drills(program, asked)
+    drills = _drills(program, request)
     drills_into(output, program, drills, number)
     names = names_of(program, len(drills))
     if len(drills) < count:

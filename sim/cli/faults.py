@@ -32,8 +32,8 @@ def tell_faults(tracebacks: Mapping[str, str], language: Language) -> int:
         _tell(words("fault.more", count=f"{len(named) - _MOST_FILES:,}"))
     _tell(words("fault.what"), _INDENT)
     facts = [f"{words('fault.command')}{shlex.join(['drycut', *sys.argv[1:]])}", _version()]
-    kept = _written_file([*facts, *_fault_lines(tracebacks)])
-    for fact in (*facts, f"{words('fault.traceback')}{kept or words('fault.not-written')}"):
+    report = _written_file([*facts, *_fault_lines(tracebacks)])
+    for fact in (*facts, f"{words('fault.traceback')}{report or words('fault.not-written')}"):
         _tell(fact, _INDENT)
     return EXIT
 

@@ -160,8 +160,8 @@ def _drawing(own: "DrawingTarget | None", options: Overrides) -> "DrawingTarget 
     """The drawing of a run. SettingsError where the options say how to hold it but not which."""
     of = OfDrawing(options.drawing, options.layer, options.tolerance, options.no_fit, options.sharp_corners)
     drawing = drawing_target(own, of)
-    asked = {"layer": of.layer, "tolerance": of.tolerance, "no-fit": of.no_fit, "sharp-corners": of.sharp_corners}
-    for name, given in asked.items():
+    settings = {"layer": of.layer, "tolerance": of.tolerance, "no-fit": of.no_fit, "sharp-corners": of.sharp_corners}
+    for name, given in settings.items():
         if drawing is None and given not in (None, False):
             raise SettingsError("option-needs-drawing", option=name)
     return drawing
@@ -173,8 +173,8 @@ def _stepping_by(scenario: "Scenario", interpolator: str | None) -> "Scenario":
 
     if interpolator in (None, scenario.machine.controller.interpolation):
         return scenario
-    kept = not_of_steps(scenario.expect)
-    left_out = ", ".join(e.path for e in scenario.expect if e not in kept)
+    expectations = not_of_steps(scenario.expect)
+    left_out = ", ".join(e.path for e in scenario.expect if e not in expectations)
     if left_out:
         say(words()("commands.not-expected", names=left_out), err=True)
-    return replace(scenario, machine=scenario.machine.stepping_by(interpolator), expect=kept)  # type: ignore[arg-type]
+    return replace(scenario, machine=scenario.machine.stepping_by(interpolator), expect=expectations)  # type: ignore[arg-type]

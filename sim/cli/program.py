@@ -77,12 +77,12 @@ def program(  # noqa: PLR0913 - click hands over each option by its name
     from sim.make.cam.maker import MadeProgram
     from sim.show.terminal.printer import write
 
-    asked = _program_request(path, output, Options(**options), is_written=not preview)
-    _refuse_pictures(picture, asked)
+    request = _program_request(path, output, Options(**options), is_written=not preview)
+    _refuse_pictures(picture, request)
     tongue: Tongue = spoken()
-    done = _made_program(asked)
+    done = _made_program(request)
     made = done if isinstance(done, MadeProgram) else None
-    written = _written(made, asked, tongue, force=force) if made else None
+    written = _written(made, request, tongue, force=force) if made else None
     if made and picture is not None:
         _draw(made, _Picture(picture, theme), tongue)
     if as_json:
@@ -91,7 +91,7 @@ def program(  # noqa: PLR0913 - click hands over each option by its name
 
         write(document_text(done, Words(tongue)), "json")
     else:
-        _tell(done, asked, written, picture, tongue)
+        _tell(done, request, written, picture, tongue)
     raise click.exceptions.Exit(0 if made and made.is_proved else 1)
 
 
@@ -227,7 +227,7 @@ def _tell(
 
     if isinstance(done, MadeProgram):
         where = "written" if done.is_proved else "forced" if written else "held-back"
-        shown = where if written or request.is_written else "previewed"
-        print_made(done, request.to_make.file, shown, picture, tongue)
+        key = where if written or request.is_written else "previewed"
+        print_made(done, request.to_make.file, key, picture, tongue)
     else:
         print_not_made(done, request.drawing, tongue)

@@ -72,10 +72,10 @@ class OnLayer(click.ParamType):  # type: ignore[type-arg]  # generic in newer cl
             return value  # type: ignore[no-any-return]  # converted before
         layer, colon, rest = value.rpartition(":")
         wishes = [part.partition("=") for part in rest.split(",")]
-        if not colon or not layer or not all(equals and asked.strip() for _, equals, asked in wishes):
+        if not colon or not layer or not all(equals and wish.strip() for _, equals, wish in wishes):
             self.fail(Message("no-layer-wish", found=value), param, ctx)
-        passes_um = tuple(_length_um(asked) for name, _, asked in wishes if name.strip() == "pass")
-        others = {name.strip(): asked.strip() for name, _, asked in wishes if name.strip() != "pass"}
+        passes_um = tuple(_length_um(wish) for name, _, wish in wishes if name.strip() == "pass")
+        others = {name.strip(): wish.strip() for name, _, wish in wishes if name.strip() != "pass"}
         side, rank = others.pop("side", None), others.pop("rank", None)
         if others or (side is not None and side not in SIDE_WISHES) or not _is_rank(rank):
             self.fail(Message("no-such-layer-wish", found=value, sides="|".join(SIDE_WISHES)), param, ctx)
@@ -208,8 +208,8 @@ def making_of(own: "Making", options: Options) -> "Making":
 
 def _passes(options: Options) -> tuple[float, ...] | None:
     """Offsets of the passes; None where nothing is asked."""
-    asked = {"--offset": options.offset is not None, "--no-offset": options.no_offset, "--pass": bool(options.passes)}
-    named = [name for name, is_there in asked.items() if is_there]
+    wishes = {"--offset": options.offset is not None, "--no-offset": options.no_offset, "--pass": bool(options.passes)}
+    named = [name for name, is_there in wishes.items() if is_there]
     if len(named) > 1:
         raise click.UsageError(Message("options-say-one-thing", options=" and ".join(named)))
     if options.no_offset:

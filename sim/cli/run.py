@@ -104,13 +104,13 @@ def run(  # noqa: PLR0913 - click hands over each option by its name
     drycut run part.3b --kerf --drawing part.dxf --tolerance 5um
     drycut run programs/ 'jigs/*.4b' -o out/ --jobs 4
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
-    asked, spread, files = Overrides(**options), Spread(jobs, scheduler), _Files(output, card_log, trace)
+    overrides, spread, files = Overrides(**options), Spread(jobs, scheduler), _Files(output, card_log, trace)
     if is_shop(names):
         _refuse_for_many(files)
-        code = run_shop(names, output, spread, asked, as_json=as_json)
+        code = run_shop(names, output, spread, overrides, as_json=as_json)
     else:
         _refuse_for_one(files, spread)
-        code = _run_one(overridden(Path(names[0]), asked), files, as_json=as_json)
+        code = _run_one(overridden(Path(names[0]), overrides), files, as_json=as_json)
     raise click.exceptions.Exit(code)
 
 
@@ -185,9 +185,9 @@ def _run(scenario: "Scenario", files: _Files) -> "DryRun":
         program = moving(program_read(scenario, source))
         if files.output is None:
             return check_expectations(dry_run(program, scenario, progress, log=log))
-        beside = {scenario.program.name: source.data} if source.is_made else {}
+        extra = {scenario.program.name: source.data} if source.is_made else {}
         return run_into(
-            files.output, program, scenario, progress, log, trace=files.trace, beside=beside, language=spoken()
+            files.output, program, scenario, progress, log, trace=files.trace, extra=extra, language=spoken()
         )
 
 

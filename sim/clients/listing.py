@@ -81,7 +81,7 @@ def program_of(session: Session, again: Again, findings: tuple[Finding, ...] = (
 def _toolpath(text: str, lines: LineIndex, session: Session, again: Again) -> Toolpath:
     way, n = again.way, len(again.way.call)
     line_of = {id(event): number for number, event in enumerate(session.events, start=1)}
-    made = [again.told[call - 1] for call in way.call.tolist()]
+    made = [again.limit_calls[call - 1] for call in way.call.tolist()]
     line = np.array([line_of[id(each)] for each in made], dtype=np.int64)
     spans = np.array([_span(text, lines, int(number)) for number in line], dtype=np.int64).reshape(-1, 2)
     names = [each.call.name for each in made]

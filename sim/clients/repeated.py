@@ -23,8 +23,8 @@ class Again(NamedTuple):
     Attributes
     ----------
     way
-        Along which it drove X and Y; its calls are numbers of `told`, from 1.
-    told
+        Along which it drove X and Y; its calls are numbers of `limit_calls`, from 1.
+    limit_calls
         The calls that were made again, sleeps left out.
     moving_s
         Spans in which it moved, waits in its list included, s.
@@ -37,7 +37,7 @@ class Again(NamedTuple):
     """
 
     way: Way
-    told: tuple[ClientCall, ...]
+    limit_calls: tuple[ClientCall, ...]
     moving_s: tuple[tuple[float, float], ...]
     limits: tuple[LimitMet, ...]
     places: list[list[int]]
@@ -54,12 +54,12 @@ def again(name: str, session: Session) -> Again:
         spans.add(each_driven.stretch.start.clock_s, each_driven.until_s)
 
     card = GECard(session.settings, on_driven=driven, on_call=heard.append)
-    told = tuple(
+    stops = tuple(
         event
         for event in session.events
         if isinstance(event, ClientCall) and not event.is_sleep and not event.is_question
     )
-    for each in told:
+    for each in stops:
         card.wait_until(each.call.t_s)
         try:
             call(card, each.call)
@@ -71,7 +71,7 @@ def again(name: str, session: Session) -> Again:
     card.GT_SwitchtoCardNo(0)
     last_s = spans.joined[-1][1] if spans.joined else 0.0
     went_on_s = max(last_s - session.end_s, 0.0) if stands else math.inf
-    return Again(recorder.way(), told, tuple(spans.joined), card.limits_met, card.places, card.status, went_on_s)
+    return Again(recorder.way(), stops, tuple(spans.joined), card.limits_met, card.places, card.status, went_on_s)
 
 
 def pulses_again(session: Session, made: Again, until_s: float) -> Iterator[Pulses]:
@@ -88,7 +88,7 @@ def pulses_again(session: Session, made: Again, until_s: float) -> Iterator[Puls
             if card.time_s >= t_s:
                 return
 
-    for each in made.told:
+    for each in made.limit_calls:
         if each.call.t_s > until_s:
             break
         yield from waited(each.call.t_s)

@@ -90,11 +90,11 @@ def _program(name: str) -> str:
 
 def _environment(wanted: Wanted, log: Path) -> dict[str, str]:
     library = wanted.library.resolve()
-    asked = {CARD: str(wanted.card.resolve()) if wanted.card else "", LOG: str(log.resolve())}
-    asked[CALL_S] = "" if wanted.call_s is None else repr(wanted.call_s)
+    variables = {CARD: str(wanted.card.resolve()) if wanted.card else "", LOG: str(log.resolve())}
+    variables[CALL_S] = "" if wanted.call_s is None else repr(wanted.call_s)
     ours = {"LD_LIBRARY_PATH": str(library), "LD_PRELOAD": str(library / SLEEP)}
     joined = {name: ":".join(filter(None, (value, os.environ.get(name, "")))) for name, value in ours.items()}
-    return {**os.environ, **joined, **asked}
+    return {**os.environ, **joined, **variables}
 
 
 def _waited(child: subprocess.Popen[bytes], longest_s: float) -> Ended:

@@ -92,8 +92,8 @@ def _stretches(guides_um: Floats, cuts: Bools) -> _Moves:
     by[1:n] = np.diff(guides_um[:, 0]) + 1j * np.diff(guides_um[:, 1])
     length = np.abs(by)
     toward = by / np.where(length > 0.0, length, 1.0)
-    kept = np.concatenate([cuts, np.ones(filled - n, dtype=bool)])
-    return _Moves(_side_by_side(length, width), _side_by_side(toward, width), _side_by_side(kept, width))
+    is_cut = np.concatenate([cuts, np.ones(filled - n, dtype=bool)])
+    return _Moves(_side_by_side(length, width), _side_by_side(toward, width), _side_by_side(is_cut, width))
 
 
 def _side_by_side(column: NDArray[_Entry], width: int) -> NDArray[_Entry]:

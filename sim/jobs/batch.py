@@ -46,8 +46,8 @@ def digest_of(program: bytes, scenario: Scenario, drawing: bytes | None, made_by
         program=Path(scenario.program.name),
         drawing=scenario.drawing and scenario.drawing._replace(file=Path(scenario.drawing.file.name)),
     )
-    told = repr((made_by, language, settings)).encode("utf-8", "surrogatepass")
-    parts = (told, program, drawing or b"")
+    settings_text = repr((made_by, language, settings)).encode("utf-8", "surrogatepass")
+    parts = (settings_text, program, drawing or b"")
     return _sum(b"".join(_sum(part).encode() for part in parts))
 
 
@@ -69,7 +69,7 @@ def row_of_last_run(folder: Path, digest: str) -> Row | None:
         record = json.loads(read_bytes(folder / NAME))
         if record["made_of"] != digest or record != _sealed(record):
             return None
-        if any(_sum_of(folder / name) != told for name, told in record["files"].items()):
+        if any(_sum_of(folder / name) != checksum for name, checksum in record["files"].items()):
             return None
         row = record["row"]
         findings = tuple(Count(code, Severity(severity), n) for code, severity, n in row["findings"])
@@ -137,10 +137,10 @@ def run_batch(
         work.take(number, done)
     entries = [work.entries[number] for number in range(len(programs))]
     index = build_index(entries)
-    beside = [BesideTheIndex(entry.row.picture, entry.row.message) for entry in entries]
+    pictures = [BesideTheIndex(entry.row.picture, entry.row.message) for entry in entries]
     with staged(out, INDEX) as stage:
         (stage / "index.json").write_text(index_text(index), "utf-8")
-        (stage / "index.html").write_text(index_page(index, beside), "utf-8")
+        (stage / "index.html").write_text(index_page(index, pictures), "utf-8")
     return Batch(index, work.faults)
 
 

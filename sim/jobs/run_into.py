@@ -48,18 +48,18 @@ def run_into(  # noqa: PLR0913 - what it is run with, and whom it tells
     log: CardLog | None = None,
     *,
     trace: bool = False,
-    beside: Mapping[str, bytes] = MappingProxyType({}),
+    extra: Mapping[str, bytes] = MappingProxyType({}),
     language: Language = "en",
 ) -> DryRun:
     """Dry-run a program and write `FILES` into a folder, and with `trace` every step and sample, `TRACE`.
 
     Without it a trace of an earlier run goes: none stands beside the files of another run. The calls to the card go to
-    `log`. Files `beside`, by their names, are written as they are; ``cut.png`` is in one language, the pages in both.
+    `log`. Files `extra`, by their names, are written as they are; ``cut.png`` is in one language, the pages in both.
 
     Raises ProgramError as `dry_run` does and FileUnreadableError where the folder cannot be written; then no file of
     the folder has changed.
     """
-    with staged(Path(folder), [*NAMES, *beside]) as stage:
+    with staged(Path(folder), [*NAMES, *extra]) as stage:
         with StepFiles(stage) as files:
             run, report = reported(dry_run(program, scenario, progress, files, log))
         recording = recording_of(run, files.paths, progress)
@@ -67,7 +67,7 @@ def run_into(  # noqa: PLR0913 - what it is run with, and whom it tells
         if trace:
             progress("trace", 0, 1)
             write_trace(stage, run, files.paths)
-        for name, data in beside.items():
+        for name, data in extra.items():
             (stage / name).write_bytes(data)
     return run
 

@@ -94,8 +94,8 @@ def _run(task: Task, folder: Path) -> Done:
     except DrawingError as error:  # people know the drawing by where it stands
         here, own = _places_of_drawing(scenario, task.scenario)
         raise DrawingError(error.message.with_values(lambda value: own if str(value) == here else value)) from None
-    beside = {task.scenario.program.name: task.data} if task.is_made else {}
-    return Done(_row(run), {**{name: (made / name).read_bytes() for name in FILES if (made / name).exists()}, **beside})
+    extra = {task.scenario.program.name: task.data} if task.is_made else {}
+    return Done(_row(run), {**{name: (made / name).read_bytes() for name in FILES if (made / name).exists()}, **extra})
 
 
 def _with_drawing(task: Task, folder: Path) -> Scenario:

@@ -121,9 +121,9 @@ class DryRun:
     @property
     def pass_feed_um_s(self) -> tuple[float, ...]:
         """Feed of each pass of the offset; where the program compensates itself, that of the machine for all."""
-        asked = self.scenario.offset
-        if asked is not None:
-            return tuple(self.scenario.pass_feed_um_s(pass_) for pass_ in asked.passes)
+        offset = self.scenario.offset
+        if offset is not None:
+            return tuple(self.scenario.pass_feed_um_s(pass_) for pass_ in offset.passes)
         feeds = self.scenario.machine.feeds(self.scenario.thickness_mm)
         return (float(feeds.cut_um_s),) * (len(self.offset.passes) if self.offset else 0)
 

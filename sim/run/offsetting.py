@@ -43,9 +43,9 @@ def offsetting(program: Program, offset: Offset) -> Offsetting:
     left_um = np.concatenate([np.zeros(0), *(part.left_um for part in parts)])
     met = tuple(gouge for part in parts for gouge in part.gouges)
     closed = {
-        round_.round.section: beside.loops
-        for round_, beside in zip(passed.rounds, parts, strict=True)
-        if beside.loops is not None
+        round_.round.section: distances.loops
+        for round_, distances in zip(passed.rounds, parts, strict=True)
+        if distances.loops is not None
     }
     found = [
         *uncut_findings(program, offset, passed, path.vanished, left_um),
@@ -75,8 +75,8 @@ def refuse_twice(program: Program, offset: Offset | None) -> None:
 
 def refuse_unknown(program: Program, findings: Sequence[Finding]) -> None:
     """ProgramError (ISO500, ISO501) where a program compensates by what nobody tells; `findings` has it."""
-    told = compensation_of(program.toolpath)
-    if told is not None and not is_known(told):
+    compensation = compensation_of(program.toolpath)
+    if compensation is not None and not is_known(compensation):
         finding, _ = next(telling(findings, WithoutValue))
         raise ProgramError(finding, excerpt=program.excerpt(finding.line))
 

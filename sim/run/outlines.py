@@ -16,5 +16,5 @@ def simpler(outline: Outline, by_um: float) -> Outline:
     plain: Outline = shapely.simplify(outline, by_um, preserve_topology=False)
     if not plain.is_empty and plain.is_valid:
         return plain
-    kept: Outline = shapely.simplify(outline, by_um)
-    return kept
+    simplified: Outline = shapely.simplify(outline, by_um)
+    return simplified

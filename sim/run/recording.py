@@ -31,9 +31,9 @@ their kerf takes 85 s."""
 
 def stages_of(scenario: Scenario) -> list[str]:
     """The stages that a recorded run of a scenario tells its progress of, in their order."""
-    asked = scenario.kerf or scenario.drawing is not None
+    has_cut = scenario.kerf or scenario.drawing is not None
     left = ["kerf", *(["comparison"] if scenario.drawing is not None else [])]
-    return ["checks", "plan", "run", *(left if asked else ["pieces"])]
+    return ["checks", "plan", "run", *(left if has_cut else ["pieces"])]
 
 
 class Recording(NamedTuple):

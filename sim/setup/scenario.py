@@ -218,8 +218,8 @@ def load_scenario(path: Path | str) -> Scenario:
     drawing = read_drawing_target(content, where, path)
     to_make = read_to_make(content, where, drawing)
     top = content if to_make is None else {**content, "program": str(to_make.file)}
-    value = TOP.read(top, where, beside=(section.name for section in SECTIONS[1:]))
-    machine = load_machine(value.pop("machine"), beside=path)
+    value = TOP.read(top, where, others=(section.name for section in SECTIONS[1:]))
+    machine = load_machine(value.pop("machine"), folder=path)
     interpolator, program = value.pop("interpolator"), value.pop("program")
     return Scenario(
         title=value.pop("title") or printable(path.resolve().name),

@@ -11,16 +11,16 @@ from sim.show.texts.phrases import as_read, listed, machine_name
 def taken_for_granted(run: DryRun) -> list[Bilingual]:
     """A sentence for each: how the program was read, the machine, and what nobody has measured or looked at."""
     found = assumptions_of(run)
-    told = [bilingual("assumptions.program", parts=as_read(found.program))] if found.program else []
+    lines = [bilingual("assumptions.program", parts=as_read(found.program))] if found.program else []
     key = "by-default" if found.by_default else "chosen"
-    told.append(bilingual(f"assumptions.{key}", machine=machine_name(found.machine)))
+    lines.append(bilingual(f"assumptions.{key}", machine=machine_name(found.machine)))
     if found.values:
         names = {key.name: words_of(section, key).name for section in SECTIONS for key in section.keys}
-        told.append(
+        lines.append(
             bilingual("assumptions.values", count=len(found.values), values=listed(names[key] for key in found.values))
         )
     if not found.compared:
-        told.append(bilingual("assumptions.no-drawing"))
+        lines.append(bilingual("assumptions.no-drawing"))
     if not found.wire_bows:
-        told.append(bilingual("assumptions.straight"))
-    return told
+        lines.append(bilingual("assumptions.straight"))
+    return lines

@@ -85,10 +85,10 @@ def number_text(value: float) -> str:
 
 def _feed(ballbar: Ballbar, say: Words) -> str:
     """The feed, and what the plan made of it where that is less."""
-    asked, run = ballbar.test.feed_um_s, ballbar.run_um_s
-    if run < asked * (1.0 - 1e-6):
-        return say("ballbar.feed-planned", asked=_mm_min(asked), planned=_mm_min(run))
-    return say("ballbar.feed-kept", asked=_mm_min(asked))
+    feed_um_s, run = ballbar.test.feed_um_s, ballbar.run_um_s
+    if run < feed_um_s * (1.0 - 1e-6):
+        return say("ballbar.feed-planned", asked=_mm_min(feed_um_s), planned=_mm_min(run))
+    return say("ballbar.feed-kept", asked=_mm_min(feed_um_s))
 
 
 def _ways(ccw: float, cw: float, say: Words) -> str:

@@ -11,14 +11,14 @@ class Key(NamedTuple):
     ----------
     does
         Text ``keys.does_…`` that says what they do.
-    shown
+    names
         What is pressed, as it is written, or as a text ``keys.key_…``.
     actions
         For each action the keys that call it, as browsers name them; none of keys that act elsewhere.
     """
 
     does: str
-    shown: tuple[str, ...]
+    names: tuple[str, ...]
     actions: Mapping[str, tuple[str, ...]] = {}
 
 

@@ -43,8 +43,8 @@ class Trace:
     def place_with(self, axis: Axis, at_um: float, t_s: float) -> tuple[float, float]:
         """Place of the table at a time when one axis was at a place; the other one is taken between two samples."""
         after = min(max(int(np.searchsorted(self.t_s, t_s)), 1), len(self) - 1)
-        beside = slice(after - 1, after + 1)
-        x, y = (float(np.interp(t_s, self.t_s[beside], column)) for column in self.table_um[beside].T)
+        around = slice(after - 1, after + 1)
+        x, y = (float(np.interp(t_s, self.t_s[around], column)) for column in self.table_um[around].T)
         return (at_um, y) if axis is Axis.X else (x, at_um)
 
     def __len__(self) -> int:

@@ -309,7 +309,7 @@ def test_the_look_ahead_keeps_blocks_only_while_it_is_on_with_rules():
     assert switched_on(off) == unruled
     assert isinstance(ruled(unruled, RULES), On)
     assert ruled(off, RULES) == Off(RULES)
-    assert switched_on(Off(RULES)).kept.rules == RULES
+    assert switched_on(Off(RULES)).look_ahead.rules == RULES
     assert switched_on(on) is on
     assert switched_off(on) == Off(RULES)
     assert switched_off(unruled) == switched_off(off) == off

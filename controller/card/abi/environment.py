@@ -39,10 +39,10 @@ def card_environment(environment: Mapping[str, str]) -> CardEnvironment:
     """
     times = _times(environment.get(CLOCK, ""))
     call_s = {"call_s": _CALL_S if times is None else _CALL_ON_WALL_S}
-    told = call_s | _table(environment.get(CARD, "")) | _call_s(environment.get(CALL_S, ""))
+    settings = call_s | _table(environment.get(CARD, "")) | _call_s(environment.get(CALL_S, ""))
     log = environment.get(LOG, "")
     try:
-        return CardEnvironment(settings_of(told), times, Path(log) if log else None)
+        return CardEnvironment(settings_of(settings), times, Path(log) if log else None)
     except ValueError as error:
         raise SettingsError("in-file", file=environment.get(CARD) or CALL_S, message=str(error)) from None
 

@@ -88,8 +88,8 @@ class HostLookAheadCalls(OpenCalls):
         host = self._host()
         if not host.blocks:
             raise Refused(Code.COMMAND)
-        told = host.take_oldest()
-        return told.end_um_s / UM_S_PER_PULSE_MS, told.block.number, told.feed_um_s / UM_S_PER_PULSE_MS
+        entry = host.take_oldest()
+        return entry.end_um_s / UM_S_PER_PULSE_MS, entry.block.number, entry.feed_um_s / UM_S_PER_PULSE_MS
 
 
 def rules_of(T: float, amax: float, am: float, vmax: float, n: int, con: float) -> HostRules:

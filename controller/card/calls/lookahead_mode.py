@@ -111,9 +111,9 @@ class LookAheadModeCalls(HostLookAheadCalls, PathBase):
         """
         if function.zeros != (TLookAheadMsg(),):
             return super()._filled(function, given, refused)
-        kept = self._mode.kept if isinstance(self._mode, On) else None
-        number = given[-1] if given else kept.oldest_number if kept else 0
-        before = min(len(kept), _MOST_TOLD) if given and kept else 0
+        ahead = self._mode.look_ahead if isinstance(self._mode, On) else None
+        number = given[-1] if given else ahead.oldest_number if ahead else 0
+        before = min(len(ahead), _MOST_TOLD) if given and ahead else 0
         return (TLookAheadMsg(number if isinstance(number, int) else 0, before, int(refused.code)),)
 
     def _lookahead(self) -> ListLookAhead:
@@ -123,10 +123,10 @@ class LookAheadModeCalls(HostLookAheadCalls, PathBase):
         """
         if not isinstance(self._mode, On) or not self._engine.list.is_open:
             raise Refused(Code.COMMAND)
-        kept = self._mode.kept
-        if kept.begun != self._engine.list.begun:
-            kept.clear(self._engine.list.begun)
-        return kept
+        ahead = self._mode.look_ahead
+        if ahead.begun != self._engine.list.begun:
+            ahead.clear(self._engine.list.begun)
+        return ahead
 
     def _let_all_go(self, list_look_ahead: ListLookAhead) -> TLookAheadMsg:
         self._engine.check_room(list_look_ahead.entries)
@@ -153,11 +153,11 @@ class LookAheadModeCalls(HostLookAheadCalls, PathBase):
         return TLookAheadMsg()
 
     def _push_behind(self, entry: Output | Wait) -> None:
-        kept = self._lookahead()
-        if len(kept):
-            if kept.entries >= self.settings.capacity:
+        ahead = self._lookahead()
+        if len(ahead):
+            if ahead.entries >= self.settings.capacity:
                 raise Refused(Code.COMMAND, LIST_FULL)
-            kept.add_behind(entry)
+            ahead.add_behind(entry)
             return
         self._engine.check_room()
         self._engine.push(entry)
@@ -186,40 +186,40 @@ class LookAheadModeCalls(HostLookAheadCalls, PathBase):
         return self._kept_at(list_look_ahead, plane[0], u), self._kept_at(list_look_ahead, plane[1], v)
 
     def _kept_move(self, vel: float, *values: float) -> None:
-        kept, entries = self._lookahead(), self._engine.list
-        start = self._kept_end(kept)
-        pace = Pace(checked(vel) * UM_S_PER_PULSE_MS, kept.rules.along_um_s2)
-        move = line(entries.number, pace, start, self._kept_place(kept, start, values))
+        ahead, entries = self._lookahead(), self._engine.list
+        start = self._kept_end(ahead)
+        pace = Pace(checked(vel) * UM_S_PER_PULSE_MS, ahead.rules.along_um_s2)
+        move = line(entries.number, pace, start, self._kept_place(ahead, start, values))
         self._check_axes(move)
-        self._engine.check_room(kept.entries + 1)
-        self._push_kept(kept)
+        self._engine.check_room(ahead.entries + 1)
+        self._push_kept(ahead)
         self._submit(move._replace(number=entries.number))
-        kept.clear(entries.begun)
+        ahead.clear(entries.begun)
 
     def _kept_line(self, values: tuple[float, ...], F: float, rests: int, number: int, rapid: bool) -> TLookAheadMsg:
-        kept = self._lookahead()
-        start, pace = self._kept_end(kept), Pace(checked(F) * UM_S_PER_PULSE_MS, 0.0, rapid)
-        return self._add_to(kept, checked_line(0, pace, start, self._kept_place(kept, start, values)), rests, number)
+        ahead = self._lookahead()
+        start, pace = self._kept_end(ahead), Pace(checked(F) * UM_S_PER_PULSE_MS, 0.0, rapid)
+        return self._add_to(ahead, checked_line(0, pace, start, self._kept_place(ahead, start, values)), rests, number)
 
     def _kept_arc(
         self, plane: tuple[int, int], arc: tuple[float, ...], F: float, rests: int, number: int
     ) -> TLookAheadMsg:
         """`arc` is centre and angle."""
-        kept = self._lookahead()
+        ahead = self._lookahead()
         pace = Pace(checked(F) * UM_S_PER_PULSE_MS, 0.0)
-        centre = self._kept_in_plane(kept, plane, arc[0], arc[1])
-        return self._add_to(kept, arc_about(0, pace, self._kept_end(kept), plane, centre, arc[2]), rests, number)
+        centre = self._kept_in_plane(ahead, plane, arc[0], arc[1])
+        return self._add_to(ahead, arc_about(0, pace, self._kept_end(ahead), plane, centre, arc[2]), rests, number)
 
     def _kept_arc_p(
         self, plane: tuple[int, int], arc: tuple[float, ...], F: float, rests: int, number: int
     ) -> TLookAheadMsg:
         """`arc` is end, radius and sense."""
-        kept = self._lookahead()
+        ahead = self._lookahead()
         pace = Pace(checked(F) * UM_S_PER_PULSE_MS, 0.0)
-        end = self._kept_in_plane(kept, plane, arc[0], arc[1])
-        radius = arc[2] * kept.rules.pulses_per_unit
-        segment = arc_by_radius(0, pace, self._kept_end(kept), plane, end, radius, int(arc[3]))
-        return self._add_to(kept, segment, rests, number)
+        end = self._kept_in_plane(ahead, plane, arc[0], arc[1])
+        radius = arc[2] * ahead.rules.pulses_per_unit
+        segment = arc_by_radius(0, pace, self._kept_end(ahead), plane, end, radius, int(arc[3]))
+        return self._add_to(ahead, segment, rests, number)
 
 
 class LookAheadCalls(LookAheadModeCalls):

@@ -39,9 +39,9 @@ def settings_from(text: str) -> CardSettings:
     return settings_of(json.loads(text))
 
 
-def settings_of(told: Any) -> CardSettings:
+def settings_of(value: Any) -> CardSettings:
     """The settings of a table. ValueError where they are none; keys that are left out take their defaults."""
-    given = _table(told, CardSettings, "settings")
+    given = _table(value, CardSettings, "settings")
     switches = given.get("switches", [])
     if not isinstance(switches, list):
         raise ValueError("switches are a list with a table for each axis")

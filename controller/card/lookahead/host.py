@@ -169,9 +169,9 @@ class ListLookAhead:
 
     def oldest(self, number: int) -> list[Entry]:
         """Let the oldest block go, which becomes `number` of the list: its entries."""
-        told = self._ahead.take_oldest()
-        segment = told.block.segment
-        pace = Pace(told.feed_um_s, self.rules.along_um_s2, segment.pace.rapid, told.end_um_s)
+        entry = self._ahead.take_oldest()
+        segment = entry.block.segment
+        pace = Pace(entry.feed_um_s, self.rules.along_um_s2, segment.pace.rapid, entry.end_um_s)
         return [segment._replace(number=number, pace=pace), *self._behind.popleft()]
 
 
@@ -191,7 +191,7 @@ class Unruled:
 class On:
     """Path calls go through the look-ahead, which keeps blocks back by its rules."""
 
-    kept: ListLookAhead
+    look_ahead: ListLookAhead
 
 
 Mode: TypeAlias = Off | Unruled | On
@@ -199,7 +199,7 @@ Mode: TypeAlias = Off | Unruled | On
 
 def blocks_kept(mode: Mode) -> int:
     """Blocks kept back."""
-    return len(mode.kept) if isinstance(mode, On) else 0
+    return len(mode.look_ahead) if isinstance(mode, On) else 0
 
 
 def ruled(mode: Mode, rules: HostRules) -> Mode:
@@ -219,5 +219,5 @@ def switched_off(mode: Mode) -> Off:
     if blocks_kept(mode):
         raise ValueError(f"{blocks_kept(mode)} blocks are kept, and the mode cannot be left")
     if isinstance(mode, On):
-        return Off(mode.kept.rules)
+        return Off(mode.look_ahead.rules)
     return mode if isinstance(mode, Off) else Off()

@@ -75,15 +75,15 @@ def flat(driven: Driven) -> tuple[Rows, Motions] | None:
     share = np.divide(rows.length_um, whole, out=np.zeros_like(whole), where=whole > 0.0)
     motions = _motions(stretch.plan, driven.until_s - clock_s, done_s, share)
     calls = np.array([getattr(entry, "call", 0) for entry in stretch.rows], dtype=np.int64)
-    told = rows._replace(end_s=done_s + clock_s, call=calls[row], number=stretch.numbers.astype(np.int64)[row])
-    return told, motions._replace(begin_s=motions.begin_s + clock_s, end_s=motions.end_s + clock_s)
+    flat_rows = rows._replace(end_s=done_s + clock_s, call=calls[row], number=stretch.numbers.astype(np.int64)[row])
+    return flat_rows, motions._replace(begin_s=motions.begin_s + clock_s, end_s=motions.end_s + clock_s)
 
 
 def _pieces(path: Path, count: int, ran_um: float) -> tuple[Ints, Floats, Floats]:
     """Row, begin and end (n,) on it, of the pieces of the first `count` rows."""
     ran = np.minimum(path.length_um[:count], ran_um - path.before_um[:count])
-    beside = np.hypot(path.tangent[:count, 2:], path.normal[:count, 2:]).max(axis=1, initial=0.0)
-    turn = np.where(beside > _LEVEL, path.curvature[:count] * ran, 0.0)
+    aside = np.hypot(path.tangent[:count, 2:], path.normal[:count, 2:]).max(axis=1, initial=0.0)
+    turn = np.where(aside > _LEVEL, path.curvature[:count] * ran, 0.0)
     parts = np.maximum(np.ceil(turn / _UPRIGHT_RAD), 1.0).astype(np.int64)
     row = np.repeat(np.arange(count), parts)
     part = np.arange(len(row)) - np.repeat(np.cumsum(parts) - parts, parts)
@@ -161,8 +161,8 @@ class Way(NamedTuple):
         """
         last = len(self.call) - 1
         row = np.minimum(np.searchsorted(self.end_s, t_s, side="left"), last)
-        for beside in (-1, 1):
-            other = np.clip(row + beside, 0, last)
+        for step in (-1, 1):
+            other = np.clip(row + step, 0, last)
             row = np.where((self.number[row] != number) & (self.number[other] == number), other, row)
         return row
 
@@ -176,10 +176,10 @@ class WayRecorder:
 
     def __call__(self, driven: Driven) -> None:
         """Keep a stretch, as far as it was run."""
-        told = flat(driven)
-        if told is not None:
-            self._rows.append(told[0])
-            self._motions.append(told[1])
+        rows = flat(driven)
+        if rows is not None:
+            self._rows.append(rows[0])
+            self._motions.append(rows[1])
 
     def way(self) -> Way:
         """All so far."""

@@ -68,12 +68,12 @@ def _order(ends: Ends, pair: Ints, by: Floats, free: NDArray[np.bool_]) -> Ints:
 def _matched(pair: Ints) -> Ints:
     """Pairs whose two ends no earlier pair has; one after the other, as each depends on those before it."""
     taken: set[int] = set()
-    kept = []
+    matches = []
     for number, (this, other) in enumerate(pair.tolist()):
         if this not in taken and other not in taken:
             taken.update((this, other))
-            kept.append(number)
-    return pair[kept]
+            matches.append(number)
+    return pair[matches]
 
 
 def near(place: Floats, within_um: float) -> tuple[Ints, Ints]:

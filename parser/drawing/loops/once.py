@@ -74,8 +74,8 @@ def _keys(curves: Curves) -> Ints:
     rows = np.arange(len(curves))
     ends = np.stack([curves.start_um, curves.end_um, places(curves, rows, np.full(len(rows), 0.5))])
     full = np.abs(curves.sweep_rad) == 2.0 * np.pi
-    beside = curves.center_um + curves.radius_um[:, None]
-    ends[:, full] = np.stack([curves.center_um, beside, beside])[:, full]
+    extreme_um = curves.center_um + curves.radius_um[:, None]
+    ends[:, full] = np.stack([curves.center_um, extreme_um, extreme_um])[:, full]
     label = np.stack([labels(ends[:, :, axis]) for axis in (0, 1)], axis=2)
     first, second = label[0], label[1]
     swap = ((first[:, 0] > second[:, 0]) | ((first[:, 0] == second[:, 0]) & (first[:, 1] > second[:, 1])))[:, None]
@@ -143,14 +143,14 @@ def drawn_once(curves: Curves, entity: Ints) -> DrawnOnce:
     over = covered(once, entity[rest]) if len(np.unique(entity[rest])) > 1 else None
     gone = np.flatnonzero(again)
     middle = 0.5 * curves.length_um[gone]
-    told = [(entity[gone], np.ones(len(gone), dtype=np.bool_), places_at(curves, gone, middle))]
+    doubled = [(entity[gone], np.ones(len(gone), dtype=np.bool_), places_at(curves, gone, middle))]
     if over is None or not len(over.row):
-        return DrawnOnce(once, entity[rest], _drawn_again(told))
-    kept = _uncovered(once, over)
+        return DrawnOnce(once, entity[rest], _drawn_again(doubled))
+    uncovered = _uncovered(once, over)
     rows, first = np.unique(over.row, return_index=True)
     place = places_at(once, rows, 0.5 * (over.first_um + over.last_um)[first])
-    told.append((entity[rest][rows], ~np.isin(rows, kept.row), place))
-    return DrawnOnce(_cut(once, kept), entity[rest][kept.row], _drawn_again(told))
+    doubled.append((entity[rest][rows], ~np.isin(rows, uncovered.row), place))
+    return DrawnOnce(_cut(once, uncovered), entity[rest][uncovered.row], _drawn_again(doubled))
 
 
 def _uncovered(curves: Curves, over: Covered) -> _Stretches:
@@ -194,9 +194,9 @@ def _cut(curves: Curves, stretches: _Stretches) -> Curves:
     return joined([ran.picked(whole), cut]).picked(np.argsort(np.concatenate([whole, part])))
 
 
-def _drawn_again(told: list[tuple[Ints, Bools, Floats]]) -> tuple[Again, ...]:
+def _drawn_again(doubled: list[tuple[Ints, Bools, Floats]]) -> tuple[Again, ...]:
     """What was drawn again, once for each entity and for whole curves and parts of them."""
-    entity, whole, place = (np.concatenate(column) for column in zip(*told, strict=True))
+    entity, whole, place = (np.concatenate(column) for column in zip(*doubled, strict=True))
     key, first, number = np.unique(2 * entity + ~whole, return_index=True, return_counts=True)
     columns = zip(key.tolist(), number.tolist(), place[first].tolist(), strict=True)
     return tuple(Again(at // 2, at % 2 == 0, count, (xy[0], xy[1])) for at, count, xy in columns)

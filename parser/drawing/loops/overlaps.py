@@ -158,8 +158,8 @@ def _turned(curves: Curves, row: Ints, center: Floats) -> tuple[Floats, Floats]:
 def _slender(curves: Curves, found: Covered, apart_um: Floats) -> Covered:
     """Those that lie beside each other for long enough. What lies beside another curve ends where that does."""
     over_um = found.last_um - found.first_um
-    beside = (apart_um <= BESIDE_UM) & (over_um > np.maximum(_SLENDER * apart_um, SAME_WITHIN_UM))
-    found, within = found.take(beside), np.where(apart_um[beside] > SAME_WITHIN_UM, BESIDE_UM, 0.0)
+    is_slender = (apart_um <= BESIDE_UM) & (over_um > np.maximum(_SLENDER * apart_um, SAME_WITHIN_UM))
+    found, within = found.take(is_slender), np.where(apart_um[is_slender] > SAME_WITHIN_UM, BESIDE_UM, 0.0)
     length = curves.length_um[found.row]
     return found._replace(
         first_um=np.where(found.first_um <= within, 0.0, found.first_um),

@@ -44,14 +44,14 @@ def arc_findings(given: GivenColumns, run: Run) -> Iterator[Finding]:
     """What is wrong with the arcs of a run; a block that runs often is told once."""
     if not len(run.rows.turning):
         return
-    told = _told_arcs(given, run)
-    centred = ~told.by_radius & ~told.lacks_center
-    yield from _without_center(told)
-    yield from _without_radius(told, centred)
-    known = centred & ~told.is_lost
-    yield from _beside_circle(told, known & (told.arcs.written_um > 0))
-    yield from _by_radius(told)
-    yield from _too_full(told, known)
+    arcs = _told_arcs(given, run)
+    centred = ~arcs.by_radius & ~arcs.lacks_center
+    yield from _without_center(arcs)
+    yield from _without_radius(arcs, centred)
+    known = centred & ~arcs.is_lost
+    yield from _beside_circle(arcs, known & (arcs.arcs.written_um > 0))
+    yield from _by_radius(arcs)
+    yield from _too_full(arcs, known)
 
 
 def _told_arcs(given: GivenColumns, run: Run) -> _ToldArcs:

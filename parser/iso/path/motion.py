@@ -66,19 +66,19 @@ def _rows_before(run: Run, count: int) -> Ints:
 
 def assumptions(given: GivenColumns, run: Run) -> tuple[Assumption, ...]:
     """What was taken where the text leaves it open."""
-    told = [*_call_targets(given, run)]
+    assumed = [*_call_targets(given, run)]
     if given.listing.blocks.is_skipped[run.flow.block].any():
-        told.append(Assumption("assumed-skips", "/", "because-skips-run"))
+        assumed.append(Assumption("assumed-skips", "/", "because-skips-run"))
     if run.offsets and run.offsets.assumed:
-        told.append(Assumption("assumed-register", run.offsets.assumed, "because-only-register"))
+        assumed.append(Assumption("assumed-register", run.offsets.assumed, "because-only-register"))
     if run.place.is_threaded.any():
-        told.append(Assumption("assumed-threading", _text(given, run, run.place.is_threaded), "because-behind-stop"))
+        assumed.append(Assumption("assumed-threading", _text(given, run, run.place.is_threaded), "because-behind-stop"))
     is_bare = bare_place(given)[run.flow.block]
     if is_bare.any():
-        told.append(Assumption("assumed-place", "X0 Y0", "because-bare"))
+        assumed.append(Assumption("assumed-place", "X0 Y0", "because-bare"))
     if _starts_unnamed(run):
-        told.append(Assumption("assumed-start", "X0 Y0", "because-no-start"))
-    return tuple(told)
+        assumed.append(Assumption("assumed-start", "X0 Y0", "because-no-start"))
+    return tuple(assumed)
 
 
 def _call_targets(given: GivenColumns, run: Run) -> Iterator[Assumption]:
@@ -240,9 +240,9 @@ def _toolpath(given: GivenColumns, run: Run) -> Toolpath:
 
 def _told_centers(rows: Rows) -> Floats:
     """(n, 2) centres of arcs as written, NaN where none is."""
-    told = np.full((len(rows.at), 2), np.nan)
-    told[rows.turning] = rows.arcs.told_um
-    return told
+    center = np.full((len(rows.at), 2), np.nan)
+    center[rows.turning] = rows.arcs.told_um
+    return center
 
 
 def _compensation(run: Run, rules: CompensationRules) -> Compensation | None:

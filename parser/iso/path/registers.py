@@ -81,8 +81,8 @@ def _value(given: GivenColumns, name: str, values: Values, rows: Ints) -> Floats
         return 0.0
     when = np.array([set_before for set_before, _ in values.get(name, ())], dtype=np.int64)
     value = np.array([np.nan, *(um for _, um in values.get(name, ()))])
-    held: Floats = value[np.searchsorted(when, rows, side="right")]
-    return held
+    in_force: Floats = value[np.searchsorted(when, rows, side="right")]
+    return in_force
 
 
 def _values(given: GivenColumns, runs: Ints, mode: Modes, choices: Choices) -> tuple[Values, dict[str, str]]:

@@ -170,9 +170,9 @@ def rows(mode: Modes, numbers: Coordinates, place: Places, resolution_um: float)
     return Rows(at, _curves(start, end, motion, turning, arcs), turning, lacks_center, arcs)
 
 
-def _arcs(start: Floats, end: Floats, turn: Floats, told: tuple[Floats, Floats], slack_um: float) -> Arcs:
+def _arcs(start: Floats, end: Floats, turn: Floats, written: tuple[Floats, Floats], slack_um: float) -> Arcs:
     """Arcs (k,) about the centres (k, 2) that are told, or by the radii (k,) where they are no NaN."""
-    center, radius = told
+    center, radius = written
     about = arcs_about(start, end, center, turn)
     by_radius = ~np.isnan(radius)
     if not by_radius.any():

@@ -130,11 +130,11 @@ def order_findings(listing: Listing, *, strict: bool) -> list[Finding]:
     rank, block = _RANK[words.letter[ranked]], words.block[ranked]
     behind = np.flatnonzero((np.diff(rank) < 0) & (np.diff(block) == 0))
     behind = behind[np.flatnonzero(np.diff(block[behind], prepend=-1))]
-    told = behind if strict else behind[:1]
+    late = behind if strict else behind[:1]
     more = 0 if strict else len(behind) - 1
     found = [
         listing.at_word("ISO130", word, word=listing.written(word), before=listing.written(before), more=more)
-        for before, word in zip(ranked[told].tolist(), ranked[told + 1].tolist(), strict=True)
+        for before, word in zip(ranked[late].tolist(), ranked[late + 1].tolist(), strict=True)
     ]
     return [each._replace(graver=Severity.ERROR if strict else None) for each in found]
 

@@ -108,8 +108,8 @@ def _parts_of_numbers(listing: Listing, profile: Profile) -> Iterator[Finding]:
     """ISO205: parts behind the point where numbers are whole."""
     words = listing.words
     known = {round(float(number) * 10) for number in profile.g if "." in number}
-    told = listing.of_any(profile.whole + "GM")
-    for word in told[~_is_whole(words.value[told])].tolist():
+    whole_words = listing.of_any(profile.whole + "GM")
+    for word in whole_words[~_is_whole(words.value[whole_words])].tolist():
         is_known = words.letter[word] == ord("G") and round(float(words.value[word]) * 10, 6) in known
         if not is_known:
             yield listing.at_word("ISO205", word, word=listing.written(word), letter=chr(int(words.letter[word])))
@@ -175,7 +175,7 @@ class AskedBeside(NamedTuple):
     """Findings ISO204, ISO402 and ISO600; and what they are about."""
 
     findings: tuple[Finding, ...]
-    beside: BesideThePath
+    besides: BesideThePath
 
 
 class _Reason(NamedTuple):
@@ -192,18 +192,18 @@ def not_simulated(listing: Listing, profile: Profile) -> AskedBeside:
         "reason-macros": _macros(listing),
         "reason-taper": _taper(listing, profile),
     }
-    told = {reason: each for reason, each in found.items() if each.findings}
-    if not told:
+    with_findings = {reason: each for reason, each in found.items() if each.findings}
+    if not with_findings:
         return AskedBeside((), PATH_IS_ALL)
-    first = next(iter(told))
-    words = [word for each in told.values() for word in each.words]
+    first = next(iter(with_findings))
+    words = [word for each in with_findings.values() for word in each.words]
     named = tuple(words[:_MOST_NAMED]) + ("…",) * (len(words) > _MOST_NAMED)
     findings = tuple(
         finding.with_fact(NotSimulated(otherwise=reason != "reason-taper"))
-        for reason, each in told.items()
+        for reason, each in with_findings.items()
         for finding in each.findings
     )
-    return AskedBeside(findings, BesideThePath(first if len(told) == 1 else "reason-other-paths", named))
+    return AskedBeside(findings, BesideThePath(first if len(with_findings) == 1 else "reason-other-paths", named))
 
 
 def _macros(listing: Listing) -> _Reason:
@@ -266,6 +266,6 @@ def _leaning_words(listing: Listing, profile: Profile) -> Ints:
     angles = listing.of(profile.angle)
     if profile.angle != "A" and not len(switched):
         angles = angles[:0]  # T switches where nothing leans
-    told = np.concatenate([listing.of("U"), listing.of("V"), angles])
-    leaning = told[words.value[told] != 0.0]
+    row = np.concatenate([listing.of("U"), listing.of("V"), angles])
+    leaning = row[words.value[row] != 0.0]
     return np.sort(leaning if len(angles) else np.concatenate([leaning, switched]))

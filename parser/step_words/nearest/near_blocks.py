@@ -153,21 +153,21 @@ def arc_to(path: LookedAt, row: int, begin: Place, aim: Aim, attempt: int) -> Ne
     center_x, center_y = aim.center or (begin[0] - out[0] + shift[0], begin[1] - out[1] + shift[1])
     start = apart * choice.about + np.array([round(begin[0] - center_x), round(begin[1] - center_y)])
     off = _off(start, out, path.ways[at], radius)
-    beside = off[:, -1] + radius - math.hypot(end[0] - x, end[1] - y)
+    off_center = off[:, -1] + radius - math.hypot(end[0] - x, end[1] - y)
     turn, counted = math.copysign(1.0, sweep), path.counted[row]
     whole = _from_whole(path.radii[row] * np.hypot(start[:, 0], start[:, 1]) - by[counted])
-    miss = _miss(path, row, whole + choice.counted_um, beside)
+    miss = _miss(path, row, whole + choice.counted_um, off_center)
     aside = np.abs(off[:, :-1]).max(axis=1)
     steps = aim.stepped + steps_off_um(start, start + by + miss, path.radii[row], turn, counted)
     cost = _unlike(choice.farther_um, attempt) + np.maximum(aside, _cost_of_end(path, row, aim, miss))
     is_near = cost <= max(_NEAR_UM, cost.min() + _SPARED_UM)
     best = int(np.argmin(np.where(is_near, cost + _cost_of_steps(steps), np.inf)))
     by = by[0] + float(miss[best, 0]), by[1] + float(miss[best, 1])
-    told = told_arc_of((float(start[best, 0]), float(start[best, 1])), by, sweep, Axis(counted))
-    if not told.turn:
-        return Near(told, float(aside[best]), aim.stepped)
+    words = told_arc_of((float(start[best, 0]), float(start[best, 1])), by, sweep, Axis(counted))
+    if not words.turn:
+        return Near(words, float(aside[best]), aim.stepped)
     (stepped_x, stepped_y), (start_x, start_y) = steps[best].tolist(), start[best].tolist()
-    return Near(told, float(aside[best]), (stepped_x, stepped_y), (begin[0] - start_x, begin[1] - start_y))
+    return Near(words, float(aside[best]), (stepped_x, stepped_y), (begin[0] - start_x, begin[1] - start_y))
 
 
 def _cost_of_steps(off: Floats) -> Floats:

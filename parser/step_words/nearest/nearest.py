@@ -72,12 +72,12 @@ def nearest_words(curves: Curves, is_placed: Bools) -> Chained:
     blocks: list[OneBlock] = []
     stepped: Place = (0.0, 0.0)
     for first, past in pairwise(_stretches(path)):
-        told = _closing(path, range(first, past), _Begun(ends[-1], stepped), seen)
-        seen.ends.update(told.seen.ends)
-        seen.centers.update(told.seen.centers)
-        blocks += told.blocks
-        ends += told.ends
-        stepped = told.stepped
+        words = _closing(path, range(first, past), _Begun(ends[-1], stepped), seen)
+        seen.ends.update(words.seen.ends)
+        seen.centers.update(words.seen.centers)
+        blocks += words.blocks
+        ends += words.ends
+        stepped = words.stepped
     return Chained(_words(blocks), np.array(ends[1:]))
 
 
@@ -134,7 +134,7 @@ def _chained(path: LookedAt, rows: range, begin: _Begun, seen: _Visited, attempt
     return _Chain(blocks, ends, missed, aside, off, new)
 
 
-def _words(told: list[OneBlock]) -> StepWords:
-    none, n = np.int64(0), len(told)
-    columns = {name: np.array([getattr(one_block, name) for one_block in told], dtype=np.int64) for name in _COLUMNS}
+def _words(blocks: list[OneBlock]) -> StepWords:
+    none, n = np.int64(0), len(blocks)
+    columns = {name: np.array([getattr(one_block, name) for one_block in blocks], dtype=np.int64) for name in _COLUMNS}
     return StepWords(**columns, radius_um=np.full(n, none - 1), curve=np.full(n, none))

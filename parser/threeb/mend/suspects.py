@@ -88,9 +88,9 @@ def suspects(toolpath: Toolpath, first_row: int, past_row: int) -> tuple[Suspect
     rows = np.arange(first_row, past_row)
     tolerance = min(closure_tolerance_um(int(toolpath.is_arc[rows].sum())), _MOST_OFF_UM)
     all_sizes = np.sort(sizes(moves_of(word_table(toolpath, rows))))
-    asked = _ring_rows(_rings(toolpath, first_row, past_row, tolerance))
-    parts = np.array_split(np.arange(len(asked.row)), len(asked.row) // _ROWS_AT_ONCE + 1)
-    best = [_ranked(toolpath, asked.take(part), all_sizes, tolerance) for part in parts]
+    ring_rows = _ring_rows(_rings(toolpath, first_row, past_row, tolerance))
+    parts = np.array_split(np.arange(len(ring_rows.row)), len(ring_rows.row) // _ROWS_AT_ONCE + 1)
+    best = [_ranked(toolpath, ring_rows.take(part), all_sizes, tolerance) for part in parts]
     return _named(toolpath, _leading(best))
 
 

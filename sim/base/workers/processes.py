@@ -82,13 +82,13 @@ def _end_all() -> None:
 
     One that does not hear, since it is in a long compiled loop, is killed.
     """
-    told = 0
+    ended = 0
     while children := multiprocessing.active_children():
         for child in children:
-            child.terminate() if told < _MOST_TOLD else child.kill()
+            child.terminate() if ended < _MOST_TOLD else child.kill()
         for child in children:
             child.join(_PATIENCE_S)
-        told += 1
+        ended += 1
 
 
 def _ready() -> None:

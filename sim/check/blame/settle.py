@@ -185,10 +185,10 @@ def _by_closure(program: Program, findings: list[Finding], verdict: Verdict) -> 
     for finding in findings:
         fact = finding.fact
         if isinstance(fact, Suspected) and fact.first == verdict.case.at:
-            kept = tuple(suspect for suspect in fact.suspects if Word(finding.block, suspect.mend) in verdict.words)
-            if kept:
-                told = suspect_finding(program, verdict.case.first, verdict.case.last, kept)
-                yield told.with_fact(Suspected(fact.first, kept, is_proved))
+            suspects = tuple(suspect for suspect in fact.suspects if Word(finding.block, suspect.mend) in verdict.words)
+            if suspects:
+                suspected = suspect_finding(program, verdict.case.first, verdict.case.last, suspects)
+                yield suspected.with_fact(Suspected(fact.first, suspects, is_proved))
         elif finding.block in blocks and isinstance(fact, _ADVICE) and told_of(finding) in verdict.explains:
             continue
         elif isinstance(fact, WrongLabel) and finding.block in labels:
@@ -215,5 +215,5 @@ def _by_label(findings: list[Finding], verdict: Verdict) -> Iterator[Finding]:
 def _or(finding: Finding, fact: WrongLabel, *labels: str) -> Finding:
     """A wrong label that may be a slip of other ones than the rule names."""
     others = tuple(label for label in labels if label != fact.ruled)
-    told = finding._replace(values={**finding.values, "others": " / ".join(others)})
-    return told.with_fact(WrongLabel(fact.ruled, others))
+    either = finding._replace(values={**finding.values, "others": " / ".join(others)})
+    return either.with_fact(WrongLabel(fact.ruled, others))

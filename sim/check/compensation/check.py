@@ -131,8 +131,8 @@ def own_compensation(program: Program, compensation: Compensation, is_judged: Bo
         passes=passes_beside(runs, moved_um(compensation)),
         edge_passes=path_passes(runs, made.path),
         left_um=_left_um(made.path, stretches),
-        gouges=tuple(gouge for stretch in stretches for gouge in stretch.beside.gouges),
-        loops=tuple(stretch.beside.loops for stretch in stretches if stretch.beside.loops is not None),
+        gouges=tuple(gouge for stretch in stretches for gouge in stretch.offset_round.gouges),
+        loops=tuple(stretch.offset_round.loops for stretch in stretches if stretch.offset_round.loops is not None),
         findings=tuple(sorted(found, key=file_order)),
     )
     return OwnCompensation(offset, passes)
@@ -154,6 +154,6 @@ def _left_um(path: OffsetPath, stretches: Sequence[CompensatedStretch]) -> Float
     for compensated_stretch in stretches:
         section = compensated_stretch.run.round.section
         left_um[slice(*np.searchsorted(path.vanished, (section.first, section.last + 1)))] = (
-            compensated_stretch.beside.left_um
+            compensated_stretch.offset_round.left_um
         )
     return left_um

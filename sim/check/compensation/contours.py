@@ -31,7 +31,7 @@ class CompensatedStretch(NamedTuple):
 
     run: CompensatedRound
     contour: Curves
-    beside: PassOverRound
+    offset_round: PassOverRound
 
 
 def compensated_stretches(
@@ -50,10 +50,10 @@ def compensated_stretches(
         counted = compensated_round.is_nearest and section.closed
         low, high = np.searchsorted(path.vanished, (section.first, section.last + 1))
         if near or low < high:
-            beside = beside_round(contour, path, compensated_round.round, compensated_round.distances, counted=counted)
+            over = beside_round(contour, path, compensated_round.round, compensated_round.distances, counted=counted)
         else:
-            beside = PassOverRound(np.zeros(0), (), 1 if counted else None)
-        found.append(CompensatedStretch(compensated_round, contour, beside))
+            over = PassOverRound(np.zeros(0), (), 1 if counted else None)
+        found.append(CompensatedStretch(compensated_round, contour, over))
     return tuple(found)
 
 
@@ -95,11 +95,11 @@ def contour_findings(
     without = _without_place(program, path, alarms)
     for compensated_stretch in stretches:
         yield from _uncut(program, path, compensated_stretch, without)
-        if compensated_stretch.beside.loops not in (None, 1):
+        if compensated_stretch.offset_round.loops not in (None, 1):
             yield loop_finding(
                 program,
                 compensated_stretch.run.round.section.first,
-                int(compensated_stretch.beside.loops or 0),
+                int(compensated_stretch.offset_round.loops or 0),
                 compensated_stretch.run.by_um,
             )
         if compensated_stretch.run.part_side == compensated_stretch.run.side:
@@ -142,10 +142,10 @@ def _uncut(
     vanished = path.vanished[slice(*np.searchsorted(path.vanished, (section.first, section.last + 1)))]
     passed = set(_missed(path, compensated_stretch).tolist()) - set(vanished.tolist()) if run.is_nearest else set()
     missed = np.array(sorted(passed), dtype=np.int64)
-    beside = path.curves.picked(rows_beside(path, run.round))
+    nearby = path.curves.picked(rows_beside(path, run.round))
     left_um = [
-        *compensated_stretch.beside.left_um,
-        *uncut_um(compensated_stretch.contour, beside, run.by_um, missed - section.first),
+        *compensated_stretch.offset_round.left_um,
+        *uncut_um(compensated_stretch.contour, nearby, run.by_um, missed - section.first),
     ]
     for row, left in zip([*vanished.tolist(), *missed.tolist()], left_um, strict=True):
         is_left = run.is_nearest and (left > _LEFT_UM or row in without.unseen)
@@ -244,13 +244,13 @@ def _told_gouges(stretches: Sequence[CompensatedStretch]) -> Iterator[tuple[Comp
 
     A lead-in and a lead-out that cross the contour at one place are told as one.
     """
-    told: dict[int, list[tuple[CompensatedRound, Gouge]]] = {}
+    gouges: dict[int, list[tuple[CompensatedRound, Gouge]]] = {}
     for compensated_stretch in sorted(stretches, key=lambda compensated_stretch: compensated_stretch.run.by_um):
-        on_edge = told.setdefault(compensated_stretch.run.along.edge, [])
-        for gouge in compensated_stretch.beside.gouges:
+        on_edge = gouges.setdefault(compensated_stretch.run.along.edge, [])
+        for gouge in compensated_stretch.offset_round.gouges:
             if not any(_is_told(compensated_stretch.run, gouge, run, earlier) for run, earlier in on_edge):
                 on_edge.append((compensated_stretch.run, gouge))
-    for on_edge in told.values():
+    for on_edge in gouges.values():
         yield from on_edge
 
 

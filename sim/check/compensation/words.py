@@ -27,8 +27,8 @@ class WithoutValue(Fact):
 
 def compensation_of(toolpath: Toolpath) -> Compensation | None:
     """What a program asks for by G41 and G42; None where it does not, or where nothing moves."""
-    told = toolpath.compensation
-    return told if told is not None and told.side.any() and toolpath.length_um.any() else None
+    compensation = toolpath.compensation
+    return compensation if compensation is not None and compensation.side.any() and toolpath.length_um.any() else None
 
 
 def is_known(compensation: Compensation) -> bool:

@@ -197,7 +197,7 @@ def _machine(content: Mapping[str, Any], file: Path, where: str) -> "Machine | N
         raise SettingsError("no-machine-name", where=where, found=name)
     from sim.setup.machine.machine import load_machine  # noqa: PLC0415 - most checks know no machine
 
-    return load_machine(name, beside=file.parent)
+    return load_machine(name, folder=file.parent)
 
 
 def _marks(content: Mapping[str, Any], where: str) -> Marks:

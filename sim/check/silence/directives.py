@@ -50,12 +50,12 @@ class Heeded(NamedTuple):
     ----------
     silenced
         Places of the findings that they silence, among all findings.
-    told
+    findings
         Notes on directives that cannot be read (3B113), and on those that silence nothing (3B114).
     """
 
     silenced: frozenset[int] = frozenset()
-    told: tuple[Finding, ...] = ()
+    findings: tuple[Finding, ...] = ()
 
 
 def heed(program: Program, findings: Sequence[Finding], states: Iterable[CheckState]) -> Heeded:
@@ -66,13 +66,13 @@ def heed(program: Program, findings: Sequence[Finding], states: Iterable[CheckSt
     directives = list(_directives(program))
     if not directives:
         return Heeded()
-    asked = [directive for directive in directives if isinstance(directive, Directive)]
-    wanted = {(each.line, each.silenced) for each in asked}
+    valid = [directive for directive in directives if isinstance(directive, Directive)]
+    wanted = {(each.line, each.silenced) for each in valid}
     hits = [[place for place in _places(finding) if place in wanted] for finding in findings]
     used = {place for hit in hits for place in hit}
     unfinished = {state.name for state in states if state.state != "complete"}
     idle = (
-        each for each in asked if (each.line, each.silenced) not in used and not _checks_of(each.silenced) & unfinished
+        each for each in valid if (each.line, each.silenced) not in used and not _checks_of(each.silenced) & unfinished
     )
     return Heeded(
         frozenset(at for at, hit in enumerate(hits) if hit),
@@ -127,14 +127,14 @@ def _read(program: Program, span: Span, line: int) -> Iterator[Directive | Findi
 
 def _unreadable(program: Program, span: Span, what: str) -> Finding:
     said = program.text[slice(*span)].strip()
-    shown = said if len(said) <= _LONGEST_SHOWN else said[:_LONGEST_SHOWN] + "…"
-    return program.lines.finding("3B113", span, what=what, text=shown)
+    excerpt = said if len(said) <= _LONGEST_SHOWN else said[:_LONGEST_SHOWN] + "…"
+    return program.lines.finding("3B113", span, what=what, text=excerpt)
 
 
 class Sifted(NamedTuple):
     """Findings that are shown, in file order, and how many are not."""
 
-    shown: tuple[Finding, ...]
+    listed: tuple[Finding, ...]
     silenced: Silenced
 
 
@@ -146,14 +146,14 @@ def sifted(
     `states` are those of the checks. What settings silence counts as theirs, whether a remark does it too or not.
     """
     heeded = heed(program, findings, states)
-    if not heeded.silenced and not heeded.told:
+    if not heeded.silenced and not heeded.findings:
         return chosen(findings, settings)
     remarked = [finding for at, finding in enumerate(findings) if at in heeded.silenced]
     others = [finding for at, finding in enumerate(findings) if at not in heeded.silenced]
-    shown, silenced = chosen(sorted([*others, *heeded.told], key=file_order), settings)
+    listed, silenced = chosen(sorted([*others, *heeded.findings], key=file_order), settings)
     by_remarks, by_settings = chosen(remarked, settings)
     options, settings_ = silenced.options + by_settings.options, silenced.settings + by_settings.settings
-    return Sifted(shown, Silenced(options, settings_, remarks=len(by_remarks)))
+    return Sifted(listed, Silenced(options, settings_, remarks=len(by_remarks)))
 
 
 def chosen(findings: Iterable[Finding], settings: CheckSettings) -> Sifted:
@@ -177,6 +177,6 @@ def without_known(result: CheckResult, known: frozenset[str]) -> CheckResult:
     if not known or result.unreadable:
         return result
     marks = fingerprints(result)
-    shown = tuple(finding for finding, mark in zip(result.findings, marks, strict=True) if mark not in known)
-    count = len(result.findings) - len(shown)
-    return replace(result, findings=shown, silenced=result.silenced._replace(baseline=count))
+    unknown = tuple(finding for finding, mark in zip(result.findings, marks, strict=True) if mark not in known)
+    count = len(result.findings) - len(unknown)
+    return replace(result, findings=unknown, silenced=result.silenced._replace(baseline=count))

@@ -44,7 +44,7 @@ def check(  # noqa: PLR0913 - click hands over each option by its name
     watch: bool,
     jobs: int | None,
     scheduler: str | None,
-    **asked: Any,
+    **values: Any,
 ) -> None:
     """Find all that is wrong with 3B and ISO programs, before a wire is threaded.
 
@@ -58,8 +58,8 @@ def check(  # noqa: PLR0913 - click hands over each option by its name
     from sim.cli.check.outputs import outputs_of
     from sim.show.findings.options import Options
 
-    _refuse_contradictions(files, formats, asked, {"--fix": fix, "--diff": diff, "--watch": watch})
-    options, style = CheckOptions(**asked), Options(spoken(), quiet=quiet, statistics=statistics)
+    _refuse_contradictions(files, formats, values, {"--fix": fix, "--diff": diff, "--watch": watch})
+    options, style = CheckOptions(**values), Options(spoken(), quiet=quiet, statistics=statistics)
     outputs = outputs_of(formats, output_file, options.write_baseline)
     work = _Work(files, options, outputs, style, Spread(jobs, scheduler))
     if watch:
@@ -102,16 +102,16 @@ def _refuse_contradictions(
     """UsageError for options of which one leaves no room for the other; `given` are those that mend or watch."""
     from sim.cli.check.jobs import STDIN
 
-    asked = [option for option, is_given in given.items() if is_given]
-    if len(asked) > 1:
-        raise click.UsageError(Message("options-exclude-each-other", options=" and ".join(asked)))
-    if asked and STDIN in files:
-        raise click.UsageError(Message(_OF_FILES[asked[0]], option=asked[0]))
+    chosen = [option for option, is_given in given.items() if is_given]
+    if len(chosen) > 1:
+        raise click.UsageError(Message("options-exclude-each-other", options=" and ".join(chosen)))
+    if chosen and STDIN in files:
+        raise click.UsageError(Message(_OF_FILES[chosen[0]], option=chosen[0]))
     needs = {"--format": formats, "--write-baseline": settings["write_baseline"]}
-    beside = [option for option, is_given in needs.items() if is_given]
-    if beside and asked == ["--diff"]:
-        raise click.UsageError(Message("diff-shows-no-findings", option=beside[0]))
-    if settings["write_baseline"] and asked == ["--watch"]:
+    dependent = [option for option, is_given in needs.items() if is_given]
+    if dependent and chosen == ["--diff"]:
+        raise click.UsageError(Message("diff-shows-no-findings", option=dependent[0]))
+    if settings["write_baseline"] and chosen == ["--watch"]:
         raise click.UsageError(Message("watch-writes-no-baseline"))
 
 

@@ -62,12 +62,16 @@ def jobs_of(names: Sequence[str], options: CheckOptions) -> list[Job]:
 class _Making:
     """Makes jobs; settings files and baselines are read once."""
 
-    def __init__(self, asked: CheckOptions) -> None:
-        self._asked = asked
-        self._options = _settings(asked)
+    def __init__(self, options: CheckOptions) -> None:
+        self._asked = options
+        self._options = _settings(options)
         self._search = SettingsSearch()
-        self._only = self._search.named(asked.config) if asked.config else NO_SETTINGS if asked.no_config else None
-        self._exclude = pattern_list(list(asked.exclude), self._search.working, "--exclude") if asked.exclude else None
+        self._only = (
+            self._search.named(options.config) if options.config else NO_SETTINGS if options.no_config else None
+        )
+        self._exclude = (
+            pattern_list(list(options.exclude), self._search.working, "--exclude") if options.exclude else None
+        )
         self._baselines: dict[Path, Baseline] = {}
 
     def is_excluded(self, path: Path) -> bool:

@@ -186,7 +186,7 @@ def mended(path: Path, name: str, settings: CheckSettings, known: frozenset[str]
     before = read_bytes(path)
     program = load_program(before, name, settings.choices)
     mend = mended_text(program, settings, known)
-    possible = ((finding, choices(program, finding, mend.findings)) for finding in mend.shown)
+    possible = ((finding, choices(program, finding, mend.findings)) for finding in mend.listed)
     unmended = tuple(Unmended(finding, ways) for finding, ways in possible if len(ways) > 1)
     after = mend.data if mend.text != program.text else before
     return Mended(program, before, mend.text, after, unmended)

@@ -37,20 +37,20 @@ class Output(NamedTuple):
     file: Path | None = None
 
 
-def outputs_of(asked: Sequence[Output], file: Path | None, baseline: Path | None = None) -> tuple[Output, ...]:
+def outputs_of(chosen: Sequence[Output], file: Path | None, baseline: Path | None = None) -> tuple[Output, ...]:
     """The outputs of ``--format`` and ``--output-file``, that of stdout first; text where no format was asked for.
 
     Raises UsageError where two go to one place, also where that is the `baseline` that is to be written, or where
     `file` has no format to hold.
     """
-    asked = asked or (Output("text"),)
-    plain = [output._replace(file=file) for output in asked if output.file is None]
+    chosen = chosen or (Output("text"),)
+    plain = [output._replace(file=file) for output in chosen if output.file is None]
     if len(plain) > 1:
         forms = " and ".join(output.form for output in plain)
         raise click.UsageError(Message("formats-in-one-place", formats=forms, form=plain[1].form))
     if file and not plain:
         raise click.UsageError(Message("output-file-for-nothing"))
-    outputs = (*plain, *(output for output in asked if output.file))
+    outputs = (*plain, *(output for output in chosen if output.file))
     seen = {_identity(baseline)} if baseline else set()
     for path in (output.file for output in outputs if output.file):
         if _identity(path) in seen:

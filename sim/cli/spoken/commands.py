@@ -48,12 +48,12 @@ class Formatter(click.HelpFormatter):
         """A list of two columns; what is behind a long name begins on the next line."""
         shown_rows, indent = list(rows), " " * self.current_indent
         left = min(max((cells(name) for name, _ in shown_rows), default=0), col_max) + col_spacing
-        for name, told in shown_rows:
+        for name, text in shown_rows:
             head = indent + name + " " * (left - cells(name))
             if cells(name) > left - col_spacing:
                 self._lines([indent + name])
                 head = indent + " " * left
-            self._lines(wrapped(told, self.width, head=head))
+            self._lines(wrapped(text, self.width, head=head))
 
     def _lines(self, lines: Sequence[str]) -> None:
         self.write("".join(f"{line}\n" for line in lines))
@@ -167,9 +167,9 @@ def _row(command: click.Command, option: click.Parameter, ctx: click.Context) ->
     """Flags of an option and what it means, its default and bounds behind it; None for what is not shown."""
     if not isinstance(option, click.Option) or option.hidden:
         return None
-    told = copy.copy(option)
-    told.help = _option_text(_key(command), max(option.opts, key=len).lstrip("-"))
-    record = told.get_help_record(ctx)
+    spoken = copy.copy(option)
+    spoken.help = _option_text(_key(command), max(option.opts, key=len).lstrip("-"))
+    record = spoken.get_help_record(ctx)
     if record is None:
         return None
     flags, meaning = record

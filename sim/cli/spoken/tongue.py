@@ -19,7 +19,7 @@ OPTION: Final = "--lang"
 class _Tongue:
     """What a command was asked for; threads of the process, such as that of the progress, share it."""
 
-    asked: Language | None = None
+    chosen: Language | None = None
 
 
 _TONGUE: Final = _Tongue()
@@ -27,7 +27,7 @@ _TONGUE: Final = _Tongue()
 
 def spoken() -> Language:
     """The language in which the command speaks."""
-    return _TONGUE.asked or of_locale()
+    return _TONGUE.chosen or of_locale()
 
 
 def words() -> Words:
@@ -37,9 +37,9 @@ def words() -> Words:
 
 def speak_as_asked(arguments: Sequence[str]) -> None:
     """Take the language from the arguments of a command: it holds for its help and for errors in them, too."""
-    beside = [after for before, after in pairwise(arguments) if before == OPTION]
+    languages = [after for before, after in pairwise(arguments) if before == OPTION]
     joined = [argument.removeprefix(f"{OPTION}=") for argument in arguments if argument.startswith(f"{OPTION}=")]
-    _TONGUE.asked = next((language for language in LANGUAGES if language in {*beside, *joined}), None)
+    _TONGUE.chosen = next((language for language in LANGUAGES if language in {*languages, *joined}), None)
 
 
 def of_locale() -> Language:
@@ -59,9 +59,9 @@ def complaint(error: click.ClickException) -> str:
         return error.format_message()
     tell = words()
     if isinstance(error, click.NoSuchOption):
-        told = tell("commands.no-option", name=error.option_name)
+        complaint_text = tell("commands.no-option", name=error.option_name)
         near = ", ".join(error.possibilities or ())
-        return told + (tell("commands.near", names=near) if near else "")
+        return complaint_text + (tell("commands.near", names=near) if near else "")
     if isinstance(error, click.MissingParameter):
         return tell("commands.missing", name=_named(error))
     if isinstance(error, click.BadParameter) and isinstance(getattr(error.param, "type", None), click.Choice):

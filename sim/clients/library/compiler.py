@@ -72,9 +72,11 @@ def _headers() -> Path:
 
 def _python() -> Path:
     """Python as a library, where the build of this Python has put it."""
-    told = {key: str(sysconfig.get_config_var(key) or "") for key in ("INSTSONAME", "LDLIBRARY", "LIBDIR", "MULTIARCH")}
-    folder, beneath = Path(told["LIBDIR"]), told["MULTIARCH"]
-    for name in filter(None, (told["INSTSONAME"], told["LDLIBRARY"])):
+    build = {
+        key: str(sysconfig.get_config_var(key) or "") for key in ("INSTSONAME", "LDLIBRARY", "LIBDIR", "MULTIARCH")
+    }
+    folder, beneath = Path(build["LIBDIR"]), build["MULTIARCH"]
+    for name in filter(None, (build["INSTSONAME"], build["LDLIBRARY"])):
         for path in (folder / name, folder / beneath / name):
             if ".so" in path.name and path.is_file():
                 return path

@@ -131,9 +131,9 @@ def _raise_to_discs(place: Floats, met: Ints, station: Floats, offset: float, re
             aside = out_x * station[at, 3] - out_y * station[at, 2]
             if abs(aside) <= offset:
                 half = np.sqrt(offset * offset - aside * aside)
-                beside = out_x * station[at, 2] + out_y * station[at, 3]
-                reaches[0, at] = max(reaches[0, at], half + beside)
-                reaches[1, at] = max(reaches[1, at], half - beside)
+                along = out_x * station[at, 2] + out_y * station[at, 3]
+                reaches[0, at] = max(reaches[0, at], half + along)
+                reaches[1, at] = max(reaches[1, at], half - along)
 
 
 def _along_um(curves: Curves, row: Ints, place_um: Floats) -> Floats:

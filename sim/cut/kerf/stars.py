@@ -107,15 +107,15 @@ def _thin(border: Floats, within: float, is_kept: Bools) -> None:
 def _borders(place: Floats, bounds: Ints, middle: Floats, toward: Floats, offset: float) -> tuple[Floats, Ints]:
     """Corners (c, 2) of the stars of s stretches, each ring closed, and (s + 1,) where each ring begins and ends."""
     rays_number = toward.shape[1]
-    border, kept = np.empty((rays_number, 2)), np.empty(rays_number, dtype=np.bool_)
+    border, is_border = np.empty((rays_number, 2)), np.empty(rays_number, dtype=np.bool_)
     corners = np.empty((middle.shape[0] * (rays_number + 1), 2))
     ends = np.zeros(middle.shape[0] + 1, dtype=np.int64)
     made = 0
     for star in range(middle.shape[0]):
         _border(place[bounds[star] : bounds[star + 1]], middle[star], toward, offset, border)
-        _thin(border, SIMPLER_UM, kept)
+        _thin(border, SIMPLER_UM, is_border)
         for k in range(rays_number):
-            if kept[k]:
+            if is_border[k]:
                 corners[made] = border[k]
                 made += 1
         corners[made] = border[0]

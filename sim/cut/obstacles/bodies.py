@@ -88,8 +88,8 @@ def triangles(outline_um: Outline) -> Floats:
     cut = np.array([*found, left])
     side = np.roll(cut, -1, axis=1) - cut
     height = _cross(side[:, 0], side[:, 1]) / np.hypot(side[..., 0], side[..., 1]).max(axis=1)
-    kept: Floats = cut[height > _FLAT_UM]
-    return kept
+    solid: Floats = cut[height > _FLAT_UM]
+    return solid
 
 
 def _clearances_um(corners: Floats) -> Floats:

@@ -110,10 +110,10 @@ def kept_edges(kerf: Kerf, shapes: tuple[KeptShape, ...]) -> KeptEdges:
     reach = np.where(side > 0, edges.left_um[station], edges.right_um[station])
     cut, ideal = edges.place_um[station] + reach[:, None] * out, edges.place_um[station] + offset_um * out
     shape = _rings_at([kept_shape.outline_um.exterior for kept_shape in shapes], cut)
-    kept = KeptEdges(station, edges.row[station], side, shape, cut, ideal).picked(shape != _NONE)
-    made = rows_that_made((each.way for each in kerf.swept), kept.cut_um, offset_um)
-    kept = kept.picked(made == kept.row)
-    return kept.picked(np.lexsort((kept.station, -kept.side, kept.row)))
+    edges_of_part = KeptEdges(station, edges.row[station], side, shape, cut, ideal).picked(shape != _NONE)
+    made = rows_that_made((each.way for each in kerf.swept), edges_of_part.cut_um, offset_um)
+    edges_of_part = edges_of_part.picked(made == edges_of_part.row)
+    return edges_of_part.picked(np.lexsort((edges_of_part.station, -edges_of_part.side, edges_of_part.row)))
 
 
 def runs_of(*columns: Ints) -> Ints:

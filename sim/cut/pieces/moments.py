@@ -61,9 +61,9 @@ class _BoxedPart(NamedTuple):
 def moments_of(cutting: Cutting) -> list[FreeMoment | None]:
     """When each of the parts comes free; None where the contours with a share in its outer edge do not free it."""
     shapely.prepare(cutting.frame_um)
-    tree, held = shapely.STRtree(cutting.parts_um), shapely.point_on_surface(cutting.frame_um)
+    tree, clamped = shapely.STRtree(cutting.parts_um), shapely.point_on_surface(cutting.frame_um)
     asked_range = {
-        each.part: each for part in range(len(cutting.parts_um)) if (each := _first_asked(cutting, part, held))
+        each.part: each for part in range(len(cutting.parts_um)) if (each := _first_asked(cutting, part, clamped))
     }
     alone = _alone(cutting)
     freed_with: dict[int, int] = {}
@@ -88,19 +88,19 @@ def _in_turn(boxed_part: _BoxedPart) -> tuple[int, int, int]:
 
 
 def _came_free_with(
-    cutting: Cutting, tree: shapely.STRtree, asked: dict[int, _BoxedPart], freed_with: dict[int, int], part: int
+    cutting: Cutting, tree: shapely.STRtree, parts: dict[int, _BoxedPart], freed_with: dict[int, int], part: int
 ) -> int | None:
     """The part that a part came free with, itself where that was when the kerf closed round it; None is not known."""
-    boxed = asked[part]
+    boxed = parts[part]
     hung = boxed.closing.hung_um
     if boxed.question.is_whole or cutting.frame_um.intersects(hung):
         return part
-    for beside in tree.query(hung, predicate="intersects").tolist():
-        if beside not in asked or cutting.contours[beside] != cutting.contours[part]:
+    for neighbour in tree.query(hung, predicate="intersects").tolist():
+        if neighbour not in parts or cutting.contours[neighbour] != cutting.contours[part]:
             continue
-        other = _last(freed_with, beside)
-        if asked[other].when != boxed.when:
-            return part if asked[other].when > boxed.when else other
+        other = _last(freed_with, neighbour)
+        if parts[other].when != boxed.when:
+            return part if parts[other].when > boxed.when else other
     return None
 
 

@@ -110,8 +110,8 @@ def pieces_of(kerf: Kerf, work_um: Outline | None, material: Material, pauses: S
     kerfs = shapely.STRtree([each.region_um for each in kerf.swept])
     rounds = [_round(kerfs, part) for part in whole]
     moments = moments_of(Cutting(stock, frame, whole, rounds, kerf.swept, kerf.offset_um))
-    told = zip(whole, rounds, moments, strict=True)
-    loose = [_loose(kerf, stock, part, round_, moment) for part, round_, moment in told if moment is not None]
+    loosened = zip(whole, rounds, moments, strict=True)
+    loose = [_loose(kerf, stock, part, round_, moment) for part, round_, moment in loosened if moment is not None]
     kinds = kinds_of(loose, kerf)
     cuts = _Cuts(kerf, kerfs, pauses, material)
     found = [_piece(cuts, piece, kind) for piece, kind in zip(loose, kinds, strict=True)]
@@ -171,7 +171,7 @@ def _piece(cuts: _Cuts, loose: Loose, kind: Kind) -> Piece:
     after = cut_on_um(loose.moment.piece_um, _ways_after(cuts, loose, is_slug=is_slug), kerf.offset_um)
     freed = _freed(ways[contour], loose.moment)
     beside_contours = [ways[index] for index in loose.contours if index <= contour]
-    held = held_after(loose.moment.piece_um.exterior, beside_contours, freed.block - 1, cuts.pauses, kerf.offset_um)
+    pause = held_after(loose.moment.piece_um.exterior, beside_contours, freed.block - 1, cuts.pauses, kerf.offset_um)
     return Piece(
         kind="slug" if is_slug else "part",
         is_scrap=kind == "scrap",
@@ -181,9 +181,9 @@ def _piece(cuts: _Cuts, loose: Loose, kind: Kind) -> Piece:
         center_um=Point(part.centroid.x, part.centroid.y),
         freed=freed,
         bridge=bridge_of(ways, contour, at, older),
-        held_after_block=held,
+        held_after_block=pause,
         cut_after_um=after,
-        early=held is None and after > _EARLY * 2.0 * kerf.offset_um + lead_um,
+        early=pause is None and after > _EARLY * 2.0 * kerf.offset_um + lead_um,
     )
 
 

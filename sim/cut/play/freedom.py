@@ -274,8 +274,8 @@ def _pinch(
 ) -> Pinch:
     wall = ops.nearest_points(shapely.Point(wire_um), scene.walls)[1]
     wall_um = np.array([wall.x, wall.y])
-    beside = ops.nearest_points(wall, scene.edge)[1]
-    straight = _shift(scene, float(np.degrees(np.arctan2(wall.y - beside.y, wall.x - beside.x))))
+    nearest = ops.nearest_points(wall, scene.edge)[1]
+    straight = _shift(scene, float(np.degrees(np.arctan2(wall.y - nearest.y, wall.x - nearest.x))))
     seen = [_seen_after_shift(wall_um, shift) for shift in (*shifts, straight) if np.isfinite(shift.by_um)]
     seen += [_seen_after_turn(wall_um, turn, scene.about_um) for turn in turns if np.isfinite(turn.by_deg)]
     width = scene.edge.distance(wall)

@@ -54,23 +54,23 @@ class Pairs(NamedTuple):
     to_um: Floats
 
 
-def kept_lines(curves: Curves, edges: Edges, kept: KeptEdges) -> KeptLines:
+def kept_lines(curves: Curves, edges: Edges, edges_of_part: KeptEdges) -> KeptLines:
     """The longest of the straight edges, in the order of their rows.
 
     Short of a corner no edge is measured. An edge that is kept up to there counts up to the end of its block.
     """
-    first = runs_of(kept.row, kept.side, kept.shape)
-    past = np.append(first, len(kept.row))[1:]
-    straight = ~curves.is_arc[kept.row[first]] & (curves.length_um[kept.row[first]] > 0.0)
+    first = runs_of(edges_of_part.row, edges_of_part.side, edges_of_part.shape)
+    past = np.append(first, len(edges_of_part.row))[1:]
+    straight = ~curves.is_arc[edges_of_part.row[first]] & (curves.length_um[edges_of_part.row[first]] > 0.0)
     first, past = first[straight], past[straight]
-    row, side = kept.row[first], kept.side[first]
+    row, side = edges_of_part.row[first], edges_of_part.side[first]
     ahead = (curves.end_um[row] - curves.start_um[row]) / curves.length_um[row][:, None]
-    begin, end = _reaching(curves, edges, row, kept.station[first], kept.station[past - 1])
+    begin, end = _reaching(curves, edges, row, edges_of_part.station[first], edges_of_part.station[past - 1])
     start = curves.start_um[row] + np.where(side > 0, begin, end)[:, None] * ahead
     places = np.stack([first, past], axis=1)
     length, way = end - begin, side[:, None] * ahead
     longest = np.sort(np.argsort(-length, kind="stable")[:_MOST_LINES])
-    columns = row[longest], kept.shape[first][longest], places[longest]
+    columns = row[longest], edges_of_part.shape[first][longest], places[longest]
     return KeptLines(*columns, start[longest], way[longest], length[longest])
 
 
@@ -173,13 +173,13 @@ def sizes_of(toolpath: Toolpath, kerf: Kerf, pieces: Pieces, work_um: Outline | 
     shapes = kept_shapes(pieces)
     if not shapes:
         return Sizes((), (), ())
-    kept = kept_edges(kerf, shapes)
-    nominal = nominal_parts(toolpath, stock_of(kerf, work_um), shapes, kept, kerf.offset_um)
-    kept = kept.picked(lie_on(shapely.get_rings(nominal.parts_um).tolist(), kept.nominal_um))
+    edges = kept_edges(kerf, shapes)
+    nominal = nominal_parts(toolpath, stock_of(kerf, work_um), shapes, edges, kerf.offset_um)
+    edges = edges.picked(lie_on(shapely.get_rings(nominal.parts_um).tolist(), edges.nominal_um))
     return Sizes(
         tuple(_boxes(shapes, nominal)),
-        tuple(_radii(toolpath, kerf, kept)),
-        tuple(_distances(kept, kept_lines(toolpath, kerf.edges, kept))),
+        tuple(_radii(toolpath, kerf, edges)),
+        tuple(_distances(edges, kept_lines(toolpath, kerf.edges, edges))),
     )
 
 
@@ -198,39 +198,39 @@ def _box(outline: shapely.Polygon) -> tuple[Point, Point]:
     return Point((low_x + high_x) / 2.0, (low_y + high_y) / 2.0), Point(high_x - low_x, high_y - low_y)
 
 
-def _radii(toolpath: Toolpath, kerf: Kerf, kept: KeptEdges) -> Iterator[RadiusSize]:
+def _radii(toolpath: Toolpath, kerf: Kerf, edges: KeptEdges) -> Iterator[RadiusSize]:
     """Radii of 10 µm and more, of the arcs with 30° and more of a kept edge."""
-    boss = np.sign(toolpath.sweep_rad[kept.row]) == kept.side
-    nominal = toolpath.radius_um[kept.row] + np.where(boss, -kerf.offset_um, kerf.offset_um)
-    first = runs_of(kept.row, kept.side)
-    number = np.diff(first, append=len(kept.row))
-    swept = np.abs(toolpath.sweep_rad[kept.row[first]]) * _shares(kerf.edges, kept, first, number)
+    boss = np.sign(toolpath.sweep_rad[edges.row]) == edges.side
+    nominal = toolpath.radius_um[edges.row] + np.where(boss, -kerf.offset_um, kerf.offset_um)
+    first = runs_of(edges.row, edges.side)
+    number = np.diff(first, append=len(edges.row))
+    swept = np.abs(toolpath.sweep_rad[edges.row[first]]) * _shares(kerf.edges, edges, first, number)
     wanted = (number >= _FEWEST) & (swept >= _LEAST_SWEEP_RAD) & (np.nan_to_num(nominal[first]) >= _LEAST_RADIUS_UM)
     if not wanted.any():
         return
     at, first, number = np.flatnonzero(np.repeat(wanted, number)), first[wanted], number[wanted]
     of = np.repeat(np.arange(len(first)), number)
-    fits = fitted_circles(kept.cut_um[at], of, toolpath.center_um[kept.row[first]])
+    fits = fitted_circles(edges.cut_um[at], of, toolpath.center_um[edges.row[first]])
     for center, radius, form, edge in zip(fits.center_um, fits.radius_um, fits.form_um, first.tolist(), strict=True):
         what: Literal["hole", "boss"] = "boss" if boss[edge] else "hole"
-        block = int(kept.row[edge]) + 1
+        block = int(edges.row[edge]) + 1
         yield RadiusSize(what, block, Point(*center.tolist()), float(radius), float(nominal[edge]), float(form))
 
 
-def _shares(edges: Edges, kept: KeptEdges, first: Ints, number: Ints) -> Floats:
+def _shares(edges: Edges, edges_of_part: KeptEdges, first: Ints, number: Ints) -> Floats:
     """Share (k,) of its block, but for the corners, that each edge spans: k of them by first places and numbers."""
     inner = np.bincount(edges.row[edges.inner], minlength=int(edges.row.max(initial=0)) + 1)
-    spanned = kept.station[first + number - 1] - kept.station[first]
-    shares: Floats = spanned / np.maximum(inner[kept.row[first]] - 1, 1)
+    spanned = edges_of_part.station[first + number - 1] - edges_of_part.station[first]
+    shares: Floats = spanned / np.maximum(inner[edges_of_part.row[first]] - 1, 1)
     return shares
 
 
-def _distances(kept: KeptEdges, lines: KeptLines) -> Iterator[DistanceSize]:
+def _distances(edges: KeptEdges, lines: KeptLines) -> Iterator[DistanceSize]:
     pairs = facing_pairs(lines)
     longest = np.sort(np.argsort(pairs.from_um - pairs.to_um, kind="stable")[:_MOST_PAIRS])
     for this, other, low, high in zip(*(column[longest].tolist() for column in pairs), strict=True):
         start, way = lines.start_um[this], lines.way[this]
-        places = [kept.picked(slice(*lines.places[line].tolist())) for line in (this, other)]
+        places = [edges.picked(slice(*lines.places[line].tolist())) for line in (this, other)]
         spans = [place.picked(_within((place.nominal_um - start) @ way, low, high)) for place in places]
         if all(len(span.row) for span in spans):
             out = np.array([-way[1], way[0]])

@@ -84,8 +84,8 @@ def _timed(figure_sum: FigureSum, run: DryRun, rows: list[int], passes: int) -> 
     time_s = run.block_time_s
     found = [each for each in run.passes.passes if first <= each.first < past]
     pass_s = [float(np.sum(time_s[each.first : each.last + 1])) for each in found]
-    told = tuple(pass_s) if len(pass_s) == passes else ()
-    return figure_sum._replace(time_s=float(np.sum(time_s[first:past])), pass_s=told)
+    times = tuple(pass_s) if len(pass_s) == passes else ()
+    return figure_sum._replace(time_s=float(np.sum(time_s[first:past])), pass_s=times)
 
 
 class Say(Protocol):
@@ -199,7 +199,7 @@ def _proof(proof: Proof, say: Say) -> ProofEntry:
         "path_um": _finite(proof.path_um),
         "edge_to_drawing_um": None if edges is None else rounded(edges.edge_max_um),
         "drawing_to_edge_um": None if edges is None else rounded(float(edges.drawing_to_edge.max_um.max())),
-        "tolerance_um": None if edges is None else rounded(edges.asked.tolerance_um),
+        "tolerance_um": None if edges is None else rounded(edges.request.tolerance_um),
         "pieces": _pieces(proof),
         "wire": _wire(proof.wire),
         "start_mm": None

@@ -204,8 +204,8 @@ def _fitted(request: _MakeRequest, fit_um: float) -> MadeProgram:
     plan = plan._replace(is_added=wanted.keeps and wanted.language == "4b" and any(plan.passes_um))
     draft = begun(_drafted(plan, wanted), wanted)
     text = written(draft, wanted)
-    told = text.text.encode(wanted.encoding, "replace")
-    program = load_program(told, f"{path.stem}.{wanted.language}", read_with(draft, wanted))
+    data = text.text.encode(wanted.encoding, "replace")
+    program = load_program(data, f"{path.stem}.{wanted.language}", read_with(draft, wanted))
     return MadeProgram(encoded(text.text, wanted), program, plan, draft, held_against(draft, text, program.toolpath))
 
 
@@ -264,8 +264,8 @@ def remarked(done: MadeProgram, texts: Sequence[str], wanted: Wanted) -> MadePro
     lines = [_remark(text, is_iso=wanted.iso is not None) for text in texts]
     first, newline, rest = done.program.text.partition(wanted.newline)
     text = newline.join([first, *lines, rest])
-    told = text.encode(wanted.encoding, "replace")
-    program = load_program(told, done.program.name, read_with(done.draft, wanted))
+    data = text.encode(wanted.encoding, "replace")
+    program = load_program(data, done.program.name, read_with(done.draft, wanted))
     return done._replace(data=encoded(text, wanted), program=program)
 
 

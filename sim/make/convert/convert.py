@@ -72,10 +72,10 @@ def _lost_fields(program: Program, words: StepWords, wanted: Wanted) -> tuple[Lo
 
 
 def _lost_offsets(toolpath: Toolpath, wanted: Wanted) -> tuple[Loss, ...]:
-    told = toolpath.compensation
-    if told is None or not told.side.any():
+    compensation = toolpath.compensation
+    if compensation is None or not compensation.side.any():
         return ()
-    names = [name for name, side in zip(told.register, told.side.tolist(), strict=True) if side]
+    names = [name for name, side in zip(compensation.register, compensation.side.tolist(), strict=True) if side]
     if wanted.keeps and wanted.iso is not None:
         return ()
     return (Loss("offsets-left" if wanted.keeps else "offsets-worked-in", some(filter(None, names)), len(set(names))),)
@@ -230,10 +230,10 @@ def _path(program: Program, checked: Checked, wanted: Wanted) -> Toolpath:
 
 def _several_offsets(toolpath: Toolpath, wanted: Wanted) -> str:
     """The offsets of a program for people, mm, where there are more than the one that 4B leaves to the controller."""
-    told = toolpath.compensation
-    if told is None or wanted.language != "4b" or not wanted.keeps:
+    compensation = toolpath.compensation
+    if compensation is None or wanted.language != "4b" or not wanted.keeps:
         return ""
-    left = np.unique(told.left_um[told.side != 0])
+    left = np.unique(compensation.left_um[compensation.side != 0])
     return some(f"{mm(each):+.3f} mm" for each in left.tolist()) if len(left) > 1 else ""
 
 
@@ -247,22 +247,24 @@ def _proved(program: Program, path: Toolpath, draft: Draft, wanted: Wanted, *, i
     except ProgramError as error:
         return Refused("result", program, (error.finding,))
     checked = run_checks(back, Demands(may_stay_open=is_open))
-    told, open_um = program.toolpath.compensation, 0.0
+    compensation, open_um = program.toolpath.compensation, 0.0
     closed: tuple[Finding, ...] = ()
-    if told is not None and not wanted.keeps:
-        closed, open_um = closed_by_kerf(checked.findings, back.toolpath, told)
+    if compensation is not None and not wanted.keeps:
+        closed, open_um = closed_by_kerf(checked.findings, back.toolpath, compensation)
     wrong = tuple(finding for finding in _errors(checked) if finding not in closed)
     if wrong:
         return Refused("result", back, wrong)
-    held = proof(draft, made, back.toolpath)
-    if held.differs:
-        return Refused("differs", back, values=(("what", f"convert.differs-{held.differs}"),))
+    proven = proof(draft, made, back.toolpath)
+    if proven.differs:
+        return Refused("differs", back, values=(("what", f"convert.differs-{proven.differs}"),))
     bound_um = wanted.bound_for_um(draft)
-    if held.off_um > bound_um:
-        return Refused("off", back, values=(("off", f"{held.off_um:.3f}"), ("bound", f"{bound_um:g}")))
+    if proven.off_um > bound_um:
+        return Refused("off", back, values=(("off", f"{proven.off_um:.3f}"), ("bound", f"{bound_um:g}")))
     alone = wanted.iso is None or _is_told_by_itself(data, draft, made, wanted, choices)
     lost = losses(program, path, draft, made, wanted)
-    return Converted(data, back, checked, held.off_um, bound_um, lost, alone, open_um, choices.registers, made.ramp_ms)
+    return Converted(
+        data, back, checked, proven.off_um, bound_um, lost, alone, open_um, choices.registers, made.ramp_ms
+    )
 
 
 def _is_told_by_itself(data: bytes, draft: Draft, made: Written, wanted: Wanted, choices: Choices) -> bool:

@@ -69,8 +69,8 @@ def _off_um(draft: Draft, row: Ints, read: Toolpath) -> float:
         aside = np.maximum(_distances(curves, ends), _distances(following, ends))
         off = np.where(off <= _SLIDES_UM, aside, off)
     source = curves.picked(row)
-    beside = [_distances(source, _at(read, share) + shift) for share in _SHARES]
-    return float(np.max(np.concatenate([off, *beside])))
+    distances = [_distances(source, _at(read, share) + shift) for share in _SHARES]
+    return float(np.max(np.concatenate([off, *distances])))
 
 
 def _at(path: Curves, share: float) -> Floats:

@@ -169,8 +169,8 @@ def _plain_iso() -> IsoChoices:
 
 def encoded(text: str, wanted: Wanted) -> bytes:
     """Bytes of a file with a written text. Letters that its encoding does not have become question marks."""
-    told = text if wanted.iso is not None else with_codes(text, wanted.end_code, wanted.pause_code)
-    return told.encode(wanted.encoding, "replace")
+    coded = text if wanted.iso is not None else with_codes(text, wanted.end_code, wanted.pause_code)
+    return coded.encode(wanted.encoding, "replace")
 
 
 def read_with(draft: Draft, wanted: Wanted) -> Choices:

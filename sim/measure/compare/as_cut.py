@@ -64,9 +64,9 @@ def _stay(corner_um: Floats, within_um: float, kept_rows: Ints) -> int:
 
 def coarser(corner_um: Floats, within_um: float) -> Floats:
     """The corners (k, 2) that stay of a chain of corners (m, 2), the first and the last among them."""
-    kept = np.empty(len(corner_um), dtype=np.int64)
-    number = _stay(np.ascontiguousarray(corner_um), within_um, kept)
-    return corner_um[kept[:number]]
+    corner = np.empty(len(corner_um), dtype=np.int64)
+    number = _stay(np.ascontiguousarray(corner_um), within_um, corner)
+    return corner_um[corner[:number]]
 
 
 _PART_LEFT, _PART_RIGHT = 1, -1

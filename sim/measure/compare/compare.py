@@ -43,10 +43,10 @@ def part_sides(edge: Edge, index: Index, drawing: Drawing, placement: Placement)
         near = nearest(index, at.place_um)
         foot = feet(edge.curves, near.row, at.place_um).place_um
         along = (headings_at(ring, at.row, at.place_um) * headings_at(edge.curves, near.row, foot)).sum(axis=1)
-        told = np.where(
+        side = np.where(
             near.distance_um <= _BESIDE * edge.reach_um, at.weight_um * along * edge.part_side[near.row], 0.0
         )
-        sides.append(int(np.sign(told.sum())) * (-1 if placement.mirror else 1))
+        sides.append(int(np.sign(side.sum())) * (-1 if placement.mirror else 1))
     return np.array(sides, dtype=np.int64)
 
 
@@ -163,7 +163,7 @@ def _compare(edge: Edge, drawing: Drawing, request: FitRequest) -> Comparison:
         drawing=drawing,
         target=target,
         laid=laid,
-        asked=request,
+        request=request,
         placement=placement,
         scale=slip.scale if slip else 1.0,
         edge_to_drawing=there,

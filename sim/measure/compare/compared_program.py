@@ -41,7 +41,7 @@ class FailingContour(NamedTuple):
 def failing_contours(found: Comparison, of: ProgramEdges) -> list[FailingContour]:
     """The contours that lie past the tolerance, in their order."""
     failing = (FailingContour(at, _off(found, ring)) for at, ring in enumerate(of.rings.rings))
-    return [contour for contour in failing if contour.off_um > found.asked.tolerance_um]
+    return [contour for contour in failing if contour.off_um > found.request.tolerance_um]
 
 
 def contour_names(
@@ -71,14 +71,14 @@ def _off(found: Comparison, ring: PathEdge) -> float:
 def _named(found: Comparison, of: ProgramEdges, sides: Ints, off_um: float, drawn: Index) -> Remark | None:
     """The fault of a program's one contour `of`, whose edge is off by `off_um`."""
     span = dict(zip(("first", "last"), of.rings.rings[0].last_blocks, strict=True))
-    most = most_left_um(off_um, found.asked.tolerance_um)
-    if of.offset_um > found.asked.tolerance_um:
+    most = most_left_um(off_um, found.request.tolerance_um)
+    if of.offset_um > found.request.tolerance_um:
         for name, other_um, inside_um in offset_faults(of.offset_um):
             edge = edge_at(of, sides, other_um).curves
             if len(edge) and float(directed(edge, drawn).max_um.max()) <= most:
                 return Remark(f"contour-{name}", {**span, "inside_mm": mm(inside_um)})
     shift = _shift(found, edge_at(of, sides, of.offset_um).curves, most)
-    if shift is None or float(np.hypot(*shift)) <= found.asked.tolerance_um:
+    if shift is None or float(np.hypot(*shift)) <= found.request.tolerance_um:
         return None
     return Remark("contour-shifted", {**span, "shift_x_mm": mm(float(shift[0])), "shift_y_mm": mm(float(shift[1]))})
 
@@ -101,7 +101,7 @@ def _starts(found: Comparison, edge: Curves) -> Iterator[Floats]:
     for number in range(int(loop.max(initial=-1)) + 1):
         rows: Bools = loop == number
         alike = abs(float(found.laid.length_um[rows].sum()) - length) <= _ALIKE * length
-        if alike and float(back[rows].max()) > found.asked.tolerance_um:
+        if alike and float(back[rows].max()) > found.request.tolerance_um:
             yield centroid(spread(found.laid.picked(rows), _PLACES)) - middle
 
 
@@ -136,11 +136,11 @@ def _faults(found: Comparison, of: ProgramEdges, sides: Ints) -> Sequence[Remark
     if len(of.rings.rings) == 1:
         return _offset_names(found, of, sides)
     named = contour_names(found, of, sides, failing)
-    told = [remark for remark in named if remark is not None]
-    alike = {remark.name for remark in told} in ({"contour-wrong-side"}, {"contour-offset-missing"})
-    if len(failing) == len(of.rings.rings) and (alike or len(told) < len(failing)):
-        return _offset_names(found, of, sides) or told
-    return told
+    faults = [remark for remark in named if remark is not None]
+    alike = {remark.name for remark in faults} in ({"contour-wrong-side"}, {"contour-offset-missing"})
+    if len(failing) == len(of.rings.rings) and (alike or len(faults) < len(failing)):
+        return _offset_names(found, of, sides) or faults
+    return faults
 
 
 def _offset_names(found: Comparison, of: ProgramEdges, sides: Ints) -> list[Remark]:
@@ -148,16 +148,16 @@ def _offset_names(found: Comparison, of: ProgramEdges, sides: Ints) -> list[Rema
 
     Either way the part loses what the names tell, all along its edge.
     """
-    if of.offset_um <= found.asked.tolerance_um:
+    if of.offset_um <= found.request.tolerance_um:
         return []
     for name, other_um, inside_um in offset_faults(of.offset_um):
         edge = edge_at(of, sides, other_um)
-        if len(edge.curves) and _far_better(compare(edge, found.drawing, found.asked), found):
+        if len(edge.curves) and _far_better(compare(edge, found.drawing, found.request), found):
             return [Remark(name, {"inside_mm": mm(inside_um)})]
     return []
 
 
 def _far_better(other: Comparison, found: Comparison) -> bool:
     """Whether the other edge lies on the drawing; what of that nobody cut tells nothing."""
-    most = most_left_um(float(found.edge_to_drawing.max_um.max()), found.asked.tolerance_um)
+    most = most_left_um(float(found.edge_to_drawing.max_um.max()), found.request.tolerance_um)
     return float(other.edge_to_drawing.max_um.max()) <= most

@@ -181,16 +181,16 @@ def _different(tried: list[Fitted], drawing: CurveGroup) -> list[RigidMotion]:
 
     A part that looks the same after several turns fits equally well by each, but for rounding: the least is wanted.
     """
-    kept: list[Fitted] = []
+    found: list[Fitted] = []
     least_turned = sorted(tried, key=_turned)[:_NEXT_LEAST_TURNED]
     for most, ranked in (
         (_NEXT_STARTS, sorted(tried, key=lambda fitted: fitted.rms_um)),
         (_NEXT_STARTS + _NEXT_LEAST_TURNED, least_turned),
     ):
         for each in ranked:
-            if len(kept) < most and not any(_agree(each.motion, other.motion, drawing.length_um) for other in kept):
-                kept.append(each)
-    return [fitted.motion for fitted in kept]
+            if len(found) < most and not any(_agree(each.motion, other.motion, drawing.length_um) for other in found):
+                found.append(each)
+    return [fitted.motion for fitted in found]
 
 
 def _turned(fitted: Fitted) -> tuple[bool, float]:

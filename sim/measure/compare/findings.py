@@ -163,7 +163,7 @@ def drawing_findings(program: Program, found: Comparison | None) -> Iterator[Fin
         return
     for what, places in (("edge-off", by_block(found)), ("drawing-off", by_entity(found))):
         worst = max(places, key=lambda place: place.deviation_um)
-        if worst.deviation_um > found.asked.tolerance_um:
+        if worst.deviation_um > found.request.tolerance_um:
             yield _off(program, found, what, worst)
     yield from _sharp_corners(program, found)
     if found.passes:
@@ -200,7 +200,7 @@ def _contour(program: Program, found: Comparison, named: Remark) -> Finding:
     values = dict(named.values)
     row = _row(program, int(values["first"]))
     if named.name == "contour-shifted":
-        return at_block(program.toolpath, program.lines, "3B605", row, tolerance=found.asked.tolerance_um, **values)
+        return at_block(program.toolpath, program.lines, "3B605", row, tolerance=found.request.tolerance_um, **values)
     return at_block(program.toolpath, program.lines, "3B604", row, what=named.name, **values)
 
 
@@ -217,7 +217,7 @@ def _off(program: Program, found: Comparison, what: str, place: WorstPlace) -> F
         _row(program, place.block),
         what=what,
         off=place.deviation_um,
-        tolerance=found.asked.tolerance_um,
+        tolerance=found.request.tolerance_um,
         x_mm=mm(place.where_um.x),
         y_mm=mm(place.where_um.y),
         entity=printable(f"{entity.kind} {entity.handle}") if entity else found.drawing.name,

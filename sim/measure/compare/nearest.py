@@ -167,7 +167,7 @@ on 50,000 others need a tenth of it; thousands of curves at nearly one distance 
 class Effort:
     """How many curves have been looked at so far."""
 
-    held: int = 0
+    looked_at: int = 0
 
 
 class Index(NamedTuple):
@@ -210,9 +210,9 @@ def nearest(index: Index, place_um: Floats) -> Nearest:
     `MOST_HELD`.
     """
     found = Nearest(np.empty(len(place_um), dtype=np.int64), np.empty(len(place_um)))
-    most = MOST_HELD - index.effort.held
+    most = MOST_HELD - index.effort.looked_at
     looked_at = search(np.ascontiguousarray(place_um), (*index.tree,), index.shape, most, (*found,))
     if looked_at == TOO_MANY:
         raise DrawingError("too-much-to-compare", most=MOST_HELD)
-    index.effort.held += looked_at
+    index.effort.looked_at += looked_at
     return found

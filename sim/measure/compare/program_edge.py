@@ -130,8 +130,8 @@ def left_by_passes(passes: Sequence[PathPass], part_side: int, offset_um: float)
         row = nearest(index, middle).row
         foot = feet(cut, row, middle).place_um
         way, out = headings_at(cut, row, foot), middle - foot
-        beside = np.sign(way[:, 0] * out[:, 1] - way[:, 1] * out[:, 0]) == side[row]
-        if float(np.average(beside, weights=curves.length_um)) >= _OF_PART:
+        is_on_side = np.sign(way[:, 0] * out[:, 1] - way[:, 1] * out[:, 0]) == side[row]
+        if float(np.average(is_on_side, weights=curves.length_um)) >= _OF_PART:
             loops.append(PathLoop(curves, block[row], of_part))
     return loops
 
@@ -165,11 +165,11 @@ class ProgramEdges(NamedTuple):
 def program_edges(toolpath: Toolpath, offset_um: float) -> ProgramEdges:
     """Loops and sides of a program whose wire cuts `offset_um` past its path; no loop where no contour closes."""
     rings = rings_of(toolpath)
-    told = np.array([ring.part_side for ring in rings.rings], dtype=np.int64)
-    if told.all():
-        return ProgramEdges(rings, (told,), offset_um)
+    side = np.array([ring.part_side for ring in rings.rings], dtype=np.int64)
+    if side.all():
+        return ProgramEdges(rings, (side,), offset_um)
     nested = _nested_sides(rings.rings)
-    return ProgramEdges(rings, tuple(np.where(told == 0, guess, told) for guess in (nested, -nested)), offset_um)
+    return ProgramEdges(rings, tuple(np.where(side == 0, guess, side) for guess in (nested, -nested)), offset_um)
 
 
 def _nested_sides(rings: Sequence[PathEdge]) -> Ints:

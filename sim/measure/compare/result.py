@@ -43,7 +43,7 @@ class Comparison:
     target, laid
         What the edge is held against: the drawing's curves, with a fillet in each inside corner that the wire cannot
         reach where these do not fail; and they in the program's coordinates.
-    asked
+    request
         How they were held against each other.
     placement
         Where the drawing lies in the program's coordinates.
@@ -68,7 +68,7 @@ class Comparison:
     drawing: Drawing
     target: Reachable
     laid: Curves
-    asked: FitRequest
+    request: FitRequest
     placement: Placement
     scale: float
     edge_to_drawing: Directed
@@ -100,7 +100,7 @@ class Comparison:
     @property
     def passes(self) -> bool:
         """Whether nothing deviates by more than the tolerance, and units agree."""
-        return self.max_um <= self.asked.tolerance_um and self.scale == 1.0
+        return self.max_um <= self.request.tolerance_um and self.scale == 1.0
 
 
 class CornerPlace(NamedTuple):

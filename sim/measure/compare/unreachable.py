@@ -91,29 +91,29 @@ def reachable(drawing: Drawing, part_side: Ints, reach_um: float) -> Reachable:
     wire: what nobody can cut is no corner.
     """
     whole = as_drawn(drawing)
-    kept = np.ones(len(drawing.curves), dtype=np.bool_)
-    parts, entities, loops, told = [], [], [], []
+    is_whole = np.ones(len(drawing.curves), dtype=np.bool_)
+    parts, entities, loops, corners = [], [], [], []
     closed = [loop for loop in drawing.loops if loop.closed]
     for number, (loop, side) in enumerate(zip(closed, part_side.tolist(), strict=True)):
         ring = running(drawing.curves, loop.row, loop.backwards)
         fillets = _fillets(ring, side, reach_um, loop.gap_um) if side and reach_um > 0.0 else []
         if not fillets:
             continue
-        kept[loop.row] = False
+        is_whole[loop.row] = False
         rolled, row = _rolled(ring, fillets, side)
         parts.append(rolled)
         entities.append(drawing.entity[loop.row[row]])
         loops.append(np.full(len(rolled), number))
-        told += [
+        corners += [
             _unreachable(fillet, reach_um, ring, int(drawing.entity[loop.row[fillet.first]])) for fillet in fillets
         ]
     if not parts:
         return whole
     return Reachable(
-        curves=joined([drawing.curves.picked(kept), *parts]),
-        entity=np.concatenate([drawing.entity[kept], *entities]),
-        loop=np.concatenate([whole.loop[kept], *loops]),
-        unreachable=tuple(told),
+        curves=joined([drawing.curves.picked(is_whole), *parts]),
+        entity=np.concatenate([drawing.entity[is_whole], *entities]),
+        loop=np.concatenate([whole.loop[is_whole], *loops]),
+        unreachable=tuple(corners),
     )
 
 

@@ -119,9 +119,9 @@ def _stock(cut: _Cut, pass_: Pass, before: Sequence[Pass]) -> Stock | None:
         return None
     at = np.flatnonzero(np.diff(np.floor(taken.along_um / _SPACING_UM), prepend=-1.0) > 0.0)
     stations = _Stations(taken.place_um[at], headings_at(cut.toolpath, taken.row[at], taken.place_um[at]))
-    beside = _earlier_wires(cut, before, stations)
+    earlier = _earlier_wires(cut, before, stations)
     sides = (pass_.part_side,) if pass_.part_side else (-1, 1)
-    reached = np.max([_beyond(beside, side, cut.reach_um) for side in sides], axis=0)
+    reached = np.max([_beyond(earlier, side, cut.reach_um) for side in sides], axis=0)
     thick = np.fmin.reduce([np.full(len(at), 2.0 * cut.reach_um), *reached])
     return Stock(float(thick.min()), float(thick.max()), float(thick.mean()))
 

@@ -109,7 +109,7 @@ def _edit(text: Text, edits: Sequence[Edit]) -> WorkspaceEdit:
 
 def _wanted(kind: CodeActionKind, kinds: Sequence[str]) -> bool:
     """Whether a kind, or one that it is of, is asked for."""
-    return not kinds or any(kind.value == asked or kind.value.startswith(f"{asked}.") for asked in kinds)
+    return not kinds or any(kind.value == prefix or kind.value.startswith(f"{prefix}.") for prefix in kinds)
 
 
 def _touch(this: Range, other: Range) -> bool:
@@ -125,8 +125,8 @@ _ACTIONS: Final = types.CodeActionOptions([types.CodeActionKind.QuickFix, types.
 class _Texts:
     """The texts that an editor has open, read and checked once for each version."""
 
-    def __init__(self, server: LanguageServer, asked: Language | None) -> None:
-        self._server, self._asked, self._locale = server, asked, ""
+    def __init__(self, server: LanguageServer, language: Language | None) -> None:
+        self._server, self._asked, self._locale = server, language, ""
         self._knows_versions = False
         self._open: dict[str, tuple[int | None, Text]] = {}
 

@@ -87,9 +87,9 @@ def _are_alike(this: Toolpath, other: Toolpath) -> bool:
         return False
     if (this.words is None) != (other.words is None):
         return False
-    told = ("x_um", "y_um", "count_um", "count_axis", "quadrant", "turn", "radius_um", "curve")
+    names = ("x_um", "y_um", "count_um", "count_axis", "quadrant", "turn", "radius_um", "curve")
     words = this.words, other.words
-    return words[0] is None or all(np.array_equal(getattr(words[0], name), getattr(words[1], name)) for name in told)
+    return words[0] is None or all(np.array_equal(getattr(words[0], name), getattr(words[1], name)) for name in names)
 
 
 _MOST_BLOCKS: Final = 5_000

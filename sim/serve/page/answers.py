@@ -154,17 +154,17 @@ def _figures(program: Program) -> list[dict[str, Any]]:
 
 def size_of(result: CheckResult) -> dict[str, Any] | None:
     """How large a program is, lengths in µm, and about how long it takes; None where its path is not known."""
-    told = result.programmed
-    if told is None:
+    programmed = result.programmed
+    if programmed is None:
         return None
     return {
-        "lines": told.lines,
-        "arcs": told.arcs,
-        "rapids": told.rapids,
-        "cut_um": rounded(told.cut_length_um),
-        "box_um": None if told.box_um is None else [rounded(place) for place in told.box_um],
+        "lines": programmed.lines,
+        "arcs": programmed.arcs,
+        "rapids": programmed.rapids,
+        "cut_um": rounded(programmed.cut_length_um),
+        "box_um": None if programmed.box_um is None else [rounded(place) for place in programmed.box_um],
         "steps": result.steps,
-        "time": _about(told.cut_length_um, result.length_um)._asdict(),
+        "time": _about(programmed.cut_length_um, result.length_um)._asdict(),
     }
 
 

@@ -121,10 +121,10 @@ class _Files:
     async def rows(self, request: Request) -> Response:
         """What is known of the programs of the folder, behind those that the page knows."""
         self._life.note_page()
-        asked = await told(request, "known", "list")
-        if not all(number.isdecimal() for number in asked.values()):
+        query = await told(request, "known", "list")
+        if not all(number.isdecimal() for number in query.values()):
             raise BadRequestError
-        return JSONResponse(await self._programs.rows(int(asked["known"][:9]), int(asked["list"][:9])))
+        return JSONResponse(await self._programs.rows(int(query["known"][:9]), int(query["list"][:9])))
 
     async def again(self, _: Request) -> Response:
         """Look through the folder again."""
@@ -147,8 +147,8 @@ class _Files:
 
     async def save(self, request: Request) -> Response:
         """The bytes of a text."""
-        asked = await told(request, "text", "opened", "encoding", "newline")
-        data = file_of(ReadFile(asked["opened"], asked["encoding"], asked["newline"]), asked["text"])
+        query = await told(request, "text", "opened", "encoding", "newline")
+        data = file_of(ReadFile(query["opened"], query["encoding"], query["newline"]), query["text"])
         return Response(data, media_type="application/octet-stream")
 
     async def alive(self, _: Request) -> Response:
@@ -179,12 +179,12 @@ class _Checks:
 
     async def lines(self, request: Request) -> Response:
         """Which lines of a text are others than before."""
-        asked = await told(request, "before", "after")
-        return await self._lines.answered(changed_lines, asked["before"], asked["after"])
+        query = await told(request, "before", "after")
+        return await self._lines.answered(changed_lines, query["before"], query["after"])
 
     async def _asked(self, request: Request) -> tuple[str, Path | None, str]:
-        asked = await told(request, "name", "text", "number")
-        return asked["name"], self._programs.file(asked["number"]), asked["text"]
+        query = await told(request, "name", "text", "number")
+        return query["name"], self._programs.file(query["number"]), query["text"]
 
 
 class _Last:
@@ -194,14 +194,14 @@ class _Last:
         self._turn = asyncio.Lock()
         self._last = 0
 
-    async def answered(self, work: Callable[..., Any], *asked: object) -> Response:
-        """What comes of it; nothing where a later one was asked for meanwhile."""
+    async def answered(self, work: Callable[..., Any], *values: object) -> Response:
+        """What comes of it; nothing where a later one was values for meanwhile."""
         self._last += 1
         number = self._last
         async with self._turn:
             if number != self._last:
                 return Response(status_code=NOTHING)
-            return JSONResponse(await run_in_threadpool(work, *asked))
+            return JSONResponse(await run_in_threadpool(work, *values))
 
 
 def _read(name: str, data: bytes, number: str = "") -> dict[str, Any]:

@@ -23,22 +23,22 @@ _STEPS: Final = 100
 
 def do(jobs: Mapping[str, Callable[[PageRequest], dict[str, Any]]]) -> None:
     """Do the job that is asked for; the last line says what came of it."""
-    asked = json.loads(read_stdin())
+    query = json.loads(read_stdin())
     try:
-        _tell(done=jobs[asked["job"]](asked))
+        _tell(done=jobs[query["job"]](query))
     except DrycutError as error:
         _tell(wrong=error.in_both()._asdict())
 
 
 def telling(stages: Sequence[str]) -> Progress:
     """Tells of the progress through these stages, by the hundredth of each."""
-    told = ("", -1)
+    last = ("", -1)
 
     def progress(stage: str, done: int, total: int) -> None:
-        nonlocal told
+        nonlocal last
         now = stage, _STEPS * done // total if total else _STEPS
-        if now != told:
-            told = now
+        if now != last:
+            last = now
             at = stages.index(stage) if stage in stages else len(stages) - 1
             _tell(stage=stage, at=at, of=len(stages), share=now[1] / _STEPS)
 
@@ -58,7 +58,7 @@ class Child:
     def __init__(self, process: asyncio.subprocess.Process) -> None:
         self._process = process
 
-    async def tells(self, asked: object) -> AsyncIterator[Any]:
+    async def tells(self, query: object) -> AsyncIterator[Any]:
         """What it tells once it was told what is asked, until it ends; all of it is JSON.
 
         Nothing of the page reaches a command line: it goes through a pipe.
@@ -67,7 +67,7 @@ class Child:
         assert stdin is not None  # noqa: S101 - asked for
         assert stdout is not None  # noqa: S101 - asked for
         with contextlib.suppress(BrokenPipeError, ConnectionResetError):
-            stdin.write(f"{json.dumps(asked)}\n".encode())
+            stdin.write(f"{json.dumps(query)}\n".encode())
             await stdin.drain()
         stdin.close()
         async for line in stdout:

@@ -51,8 +51,9 @@ def _look(request: PageRequest) -> dict[str, Any]:
     target = DrawingTarget(Path(request["drawing_file"]))
     drawing = read_drawing(target.file, gap_um=target.gap_um)
     placement, notes = _placement(request, drawing, target) if request["text"].strip() else (IN_PLACE, [])
-    told = [*(Bilingual(*(remark_text(note, language) for language in LANGUAGES)) for note in drawing.notes), *notes]
-    return _written_answer(request, {"unit": drawing.unit, "curves": _columns(drawing, placement), "told": _both(told)})
+    of_drawing = [Bilingual(*(remark_text(note, language) for language in LANGUAGES)) for note in drawing.notes]
+    answer = {"unit": drawing.unit, "curves": _columns(drawing, placement), "told": _both([*of_drawing, *notes])}
+    return _written_answer(request, answer)
 
 
 def _make(request: PageRequest) -> dict[str, Any]:
@@ -70,10 +71,10 @@ def _make(request: PageRequest) -> dict[str, Any]:
         return _written_answer(
             request, {"program": None, "told": _both([why_refused(done.refusal)]), "is_proved": False}
         )
-    told = [Bilingual(*both) for both in zip(*(_summary(done, language) for language in LANGUAGES), strict=True)]
+    lines = [Bilingual(*both) for both in zip(*(_summary(done, language) for language in LANGUAGES), strict=True)]
     data = done.data if done.is_proved else remarked(done, [*against(done, "en")], wanted).data
     program = {"name": printable(file.name), **read_file(data)._asdict(), "number": ""}
-    return _written_answer(request, {"program": program, "told": _both(told), "is_proved": done.is_proved})
+    return _written_answer(request, {"program": program, "told": _both(lines), "is_proved": done.is_proved})
 
 
 def _making(request: PageRequest) -> Making:
@@ -143,8 +144,8 @@ def _jump(before: Curves, behind: Curves) -> Curves:
     )
 
 
-def _both(told: list[Bilingual]) -> list[dict[str, str]]:
-    return [{"en": printable(bilingual.en), "zh": printable(bilingual.zh)} for bilingual in told]
+def _both(texts: list[Bilingual]) -> list[dict[str, str]]:
+    return [{"en": printable(bilingual.en), "zh": printable(bilingual.zh)} for bilingual in texts]
 
 
 def _written_answer(request: PageRequest, found: Mapping[str, Any]) -> dict[str, Any]:

@@ -72,13 +72,13 @@ class Drawings:
         """Where the program that is made of the drawing of a number is told."""
         return self._folder / number / "made.json"
 
-    async def look(self, file: Path, asked: dict[str, str]) -> bytes:
+    async def look(self, file: Path, query: dict[str, str]) -> bytes:
         """What is found in a drawing, in JSON: ``why`` alone where it is none, or took too long."""
         result = file.with_name("look.json")
         child = await begun("sim.serve.page.drafter")
-        told = {**asked, "drawing_file": str(file), "result_file": str(result), "job": "look"}
+        task = {**query, "drawing_file": str(file), "result_file": str(result), "job": "look"}
         try:
-            last = await asyncio.wait_for(_last(child, told), _LONGEST_S)
+            last = await asyncio.wait_for(_last(child, task), _LONGEST_S)
         except TimeoutError:
             last = {}
         finally:
@@ -86,9 +86,9 @@ class Drawings:
         return result.read_bytes() if "done" in last else _why(last.get("wrong"))
 
 
-async def _last(child: Child, asked: dict[str, str]) -> dict[str, Any]:
+async def _last(child: Child, query: dict[str, str]) -> dict[str, Any]:
     """What a process tells last; nothing where it tells nothing."""
-    lines = [line async for line in child.tells(asked)]
+    lines = [line async for line in child.tells(query)]
     return lines[-1] if lines else {}
 
 

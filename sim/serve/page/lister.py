@@ -22,14 +22,14 @@ _AT_ONCE: Final = 8
 
 def main() -> None:
     """Check all files that are asked for."""
-    asked = [(name, Path(file)) for name, file in json.loads(read_stdin())]
-    rows = in_order(results(_row, enumerate(asked), Processes(), _AT_ONCE))
-    for (name, _), row in zip(asked, rows, strict=True):
+    files = [(name, Path(file)) for name, file in json.loads(read_stdin())]
+    rows = in_order(results(_row, enumerate(files), Processes(), _AT_ONCE))
+    for (name, _), row in zip(files, rows, strict=True):
         write(f"{json.dumps(refused(name, same(DIED)) if isinstance(row, Lost) else row)}\n", "json")
 
 
-def _row(asked: tuple[str, Path]) -> dict[str, Any]:
-    name, file = asked
+def _row(named_file: tuple[str, Path]) -> dict[str, Any]:
+    name, file = named_file
     try:
         data = read_bytes(file)
     except FileUnreadableError as error:

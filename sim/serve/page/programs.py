@@ -131,7 +131,7 @@ class Programs:
         assert self._folder is not None  # noqa: S101 - asked where there is one
         return [(printable(file.relative_to(self._folder).as_posix()), str(file)) for file in files]
 
-    async def _follow(self, child: Child, asked: list[tuple[str, str]]) -> None:
+    async def _follow(self, child: Child, named_files: list[tuple[str, str]]) -> None:
         rows = self._rows
-        async for row in child.tells(asked):
+        async for row in child.tells(named_files):
             rows.append({**row, "number": str(self._first + len(rows))})

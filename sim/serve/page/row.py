@@ -55,10 +55,10 @@ def _message(finding: Finding) -> Bilingual:
 
 def _row(name: str, verdict: str, findings: Sequence[Finding] = (), message: Bilingual | None = None) -> dict[str, Any]:
     counts = counted(findings)
-    shown = printable(name)
+    name_text = printable(name)
     return {
-        "file": shown,
-        "title": shown,
+        "file": name_text,
+        "title": name_text,
         "verdict": verdict,
         "message": None if message is None else {"en": printable(message.en), "zh": printable(message.zh)},
         "findings": [{"code": of.code, "severity": str(of.severity), "count": of.n} for of in counts],

@@ -123,20 +123,20 @@ class Drawn:
 
     async def look(self, request: Request) -> Response:
         """The curves of a drawing as they lie beneath a text, and what there is to say of it."""
-        asked = await told(request, "drawing", *LOOK_KEYS)
-        file = self._drawings.file(asked["drawing"])
+        query = await told(request, "drawing", *LOOK_KEYS)
+        file = self._drawings.file(query["drawing"])
         if file is None:
             return Response(status_code=MISSING)
-        return Response(await self._drawings.look(file, asked), media_type="application/json")
+        return Response(await self._drawings.look(file, query), media_type="application/json")
 
     async def draft(self, request: Request) -> Response:
         """Make a program of a drawing."""
-        asked = await told(request, "drawing", *MAKE_KEYS)
-        file = self._drawings.file(asked["drawing"])
+        query = await told(request, "drawing", *MAKE_KEYS)
+        file = self._drawings.file(query["drawing"])
         if file is None:
             return Response(status_code=MISSING)
-        files = {"drawing_file": str(file), "result_file": str(self._drawings.result(asked["drawing"]))}
-        await self._runs.draft({**asked, **files})
+        files = {"drawing_file": str(file), "result_file": str(self._drawings.result(query["drawing"]))}
+        await self._runs.draft({**query, **files})
         return JSONResponse(self._runs.state)
 
     async def drafted(self, request: Request) -> Response:
@@ -156,12 +156,12 @@ class Running:
 
     async def run(self, request: Request) -> Response:
         """Run a text."""
-        asked = await told(request, "name", "text", "number", "drawing", *KEYS)
+        query = await told(request, "name", "text", "number", "drawing", *KEYS)
         files = {
-            "drawing_file": str(self._drawings.file(asked["drawing"]) or ""),
-            "near_file": str(self._programs.file(asked["number"]) or ""),
+            "drawing_file": str(self._drawings.file(query["drawing"]) or ""),
+            "near_file": str(self._programs.file(query["number"]) or ""),
         }
-        await self._runs.start(asked["name"], asked["text"].encode("utf-8", "replace"), {**asked, **files})
+        await self._runs.start(query["name"], query["text"].encode("utf-8", "replace"), {**query, **files})
         return JSONResponse(self._runs.state)
 
     async def more(self, request: Request) -> Response:

@@ -53,33 +53,33 @@ class Runs:
         files = [{"name": name, "bytes": size} for name, size in self.files(self._ran["run"]).items()]
         return {**self._state, **self._ran, "files": files}
 
-    async def start(self, name: str, text: bytes, asked: dict[str, str]) -> None:
+    async def start(self, name: str, text: bytes, query: dict[str, str]) -> None:
         """Run a text of a name, in place of the run before; ``drawing_file`` is what it is held against.
 
         Settings near ``near_file`` say how it is read; each is empty where there is none.
         """
         async with self._turn:
-            await self._start(name, text, asked)
+            await self._start(name, text, query)
 
-    async def make(self, asked: dict[str, str]) -> None:
+    async def make(self, query: dict[str, str]) -> None:
         """Make a film, pictures or fault drills of the finished run; nothing where there is none."""
         async with self._turn:
-            if self._ran and asked["job"] in _MORE:
+            if self._ran and query["job"] in _MORE:
                 await self._end()
-                await self._begin({**self._asked, **{key: asked[key] for key in MORE_KEYS}})
+                await self._begin({**self._asked, **{key: query[key] for key in MORE_KEYS}})
 
-    async def draft(self, asked: dict[str, str]) -> None:
+    async def draft(self, query: dict[str, str]) -> None:
         """Make a program of ``drawing_file``, which is told in ``result_file``."""
         async with self._turn:
             await self._end()
-            await self._begin({**asked, "job": "program"})
+            await self._begin({**query, "job": "program"})
 
     async def cancel(self) -> None:
         """End the run that is on, if one is."""
         async with self._turn:
             await self._end()
 
-    async def _start(self, name: str, text: bytes, asked: dict[str, str]) -> None:
+    async def _start(self, name: str, text: bytes, query: dict[str, str]) -> None:
         await self._end()
         self._number += 1
         self._ran = {}
@@ -90,7 +90,7 @@ class Runs:
         file.parent.mkdir(parents=True)
         file.write_bytes(text)
         self._asked = {
-            **{key: asked[key] for key in (*KEYS, "drawing_file", "near_file")},
+            **{key: query[key] for key in (*KEYS, "drawing_file", "near_file")},
             "file": str(file),
             "folder": str(self._made_in(self._number)),
         }
@@ -123,29 +123,29 @@ class Runs:
     def _made_in(self, number: int) -> Path:
         return self._folder / str(number) / "out"
 
-    async def _begin(self, asked: dict[str, str]) -> None:
-        self._state = {"state": "running", "job": asked["job"], "run": self._number}
-        self._child = await begun("sim.serve.page.drafter" if asked["job"] == "program" else "sim.serve.page.runner")
-        self._following = asyncio.create_task(self._follow(self._child, asked))
+    async def _begin(self, query: dict[str, str]) -> None:
+        self._state = {"state": "running", "job": query["job"], "run": self._number}
+        self._child = await begun("sim.serve.page.drafter" if query["job"] == "program" else "sim.serve.page.runner")
+        self._following = asyncio.create_task(self._follow(self._child, query))
 
-    async def _follow(self, child: Child, asked: dict[str, str]) -> None:
+    async def _follow(self, child: Child, query: dict[str, str]) -> None:
         last: dict[str, Any] = {}
         begin = self._state
-        async for last in child.tells(asked):
+        async for last in child.tells(query):
             if "stage" in last:
                 self._state = {**begin, **last}
         if "done" in last:
-            self._ran = {"run": begin["run"], **last["done"]} if asked["job"] == "run" else self._ran
+            self._ran = {"run": begin["run"], **last["done"]} if query["job"] == "run" else self._ran
             self._state = {**begin, "state": "done"}
         elif "wrong" in last:
-            self._state = {**begin, "state": "wrong", "why": _by_names(last["wrong"], asked)}
+            self._state = {**begin, "state": "wrong", "why": _by_names(last["wrong"], query)}
         elif child is self._child:
             self._state = {**begin, "state": "wrong", "why": None}
 
 
-def _by_names(why: dict[str, str], asked: dict[str, str]) -> dict[str, str]:
+def _by_names(why: dict[str, str], query: dict[str, str]) -> dict[str, str]:
     """A message in both languages, in which files of the page stand by their names alone."""
-    folders = {str(Path(asked[key]).parent) for key in ("file", "drawing_file") if asked.get(key)}
+    folders = {str(Path(query[key]).parent) for key in ("file", "drawing_file") if query.get(key)}
     for folder in folders:
         why = {language: text.replace(f"{folder}{os.sep}", "") for language, text in why.items()}
     return {language: printable(text) for language, text in why.items()}

@@ -72,13 +72,13 @@ def machine_names() -> tuple[str, ...]:
     return tuple(sorted(each.name.removesuffix(".toml") for each in shipped.iterdir() if each.name.endswith(".toml")))
 
 
-def load_machine(name: str, beside: Path | None = None) -> Machine:
-    """Machine of a shipped name such as ``dk7740``, or of a ``.toml`` file (relative to the folder `beside`).
+def load_machine(name: str, folder: Path | None = None) -> Machine:
+    """Machine of a shipped name such as ``dk7740``, or of a ``.toml`` file (relative to `folder`).
 
     Raises FileUnreadableError and SettingsError with the file and the key.
     """
     if name.endswith(".toml"):
-        return _read(Path(beside or "") / name)
+        return _read(Path(folder or "") / name)
     shipped = resources.files("sim.setup.machine")
     known = machine_names()
     if name not in known:
@@ -95,7 +95,7 @@ def machine_sections(machine: Machine) -> list[WrittenSection]:
 def _read(path: Path) -> Machine:
     content, where = load_toml(path), str(path)
     arm = ARM.read_in(content, where) if ARM.name in content else {}
-    top = TOP.read(content, where, beside=(section.name for section in SECTIONS[1:]))
+    top = TOP.read(content, where, others=(section.name for section in SECTIONS[1:]))
     machine = Machine(
         **top,
         table=read_table(content, where),

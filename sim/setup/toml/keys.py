@@ -122,12 +122,12 @@ class Section:
         """Line above the keys; none at the top of a file."""
         return {"top": "", "table": f"[{self.name}]", "list": f"[[{self.name}]]"}[self.form]
 
-    def read(self, table: Mapping[str, Any], where: str, beside: Iterable[str] = ()) -> dict[str, Any]:
+    def read(self, table: Mapping[str, Any], where: str, others: Iterable[str] = ()) -> dict[str, Any]:
         """Values of a table by the fields that keep them, pairs as such; SettingsError names file and key.
 
-        Besides the keys the table may hold those named in `beside`.
+        Besides the keys the table may hold those named in `others`.
         """
-        refuse_unknown(table, (*(key.name for key in self.keys), *beside), where)
+        refuse_unknown(table, (*(key.name for key in self.keys), *others), where)
         found: dict[str, Any] = {}
         for key in self.keys:
             _put(found, key.path, key.read(table, where))

@@ -76,9 +76,9 @@ def picture_of(sound: Toolpath, damaged: Toolpath, lines: Collection[int]) -> Pi
     )
 
 
-def _data(path: Curves, shown: np.ndarray[tuple[int], np.dtype[np.bool_]], frame: _Frame) -> str:
+def _data(path: Curves, is_drawn: np.ndarray[tuple[int], np.dtype[np.bool_]], frame: _Frame) -> str:
     points, row = flatten(path, _OFF / 2.0 * frame.unit_um)
-    runs = cut_runs(points, row, ~shown)
+    runs = cut_runs(points, row, ~is_drawn)
     return "".join(path_data(_in_box(simplify((run - frame.middle_um) / frame.unit_um, _OFF / 2.0))) for run in runs)
 
 

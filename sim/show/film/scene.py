@@ -70,7 +70,7 @@ SHAPE: Final = (1600.0, 900.0)
 
 
 class Layout(NamedTuple):
-    """Boxes of a frame, px, with the factor on all sizes; `beside` where the read-outs stand beside the plot."""
+    """Boxes of a frame, px, with the factor on all sizes; `is_wide` where the read-outs stand beside the plot."""
 
     width_px: int
     height_px: int
@@ -79,18 +79,18 @@ class Layout(NamedTuple):
     plot: Box
     panel: Box
     strip: Box
-    beside: bool
+    is_wide: bool
 
 
 def layout_for(width_px: int, height_px: int) -> Layout:
     """Layout of a frame, px."""
-    beside = width_px >= WIDE * height_px
-    wide, tall = SHAPE if beside else (0.6 * SHAPE[0], 0.6 * SHAPE[0])
+    is_wide = width_px >= WIDE * height_px
+    wide, tall = SHAPE if is_wide else (0.6 * SHAPE[0], 0.6 * SHAPE[0])
     unit = max(min(width_px / wide, height_px / tall), style.LEAST_UNIT)
     edge, head, strip = style.EDGE * unit, HEAD * unit, STRIP * unit
     bottom = height_px - strip
     left = style.LEFT * unit
-    if beside:
+    if is_wide:
         panel = Box(width_px - edge - PANEL * unit, head, width_px - edge, bottom)
         plot = Box(left, head, panel.left - edge, bottom - AXIS * unit)
     else:
@@ -104,7 +104,7 @@ def layout_for(width_px: int, height_px: int) -> Layout:
         plot=_whole(plot),
         panel=_whole(panel),
         strip=_whole(Box(edge, bottom, width_px - edge, height_px)),
-        beside=beside,
+        is_wide=is_wide,
     )
 
 
@@ -229,12 +229,12 @@ class Scene:
     def _mix(self, span: Span, levels: Levels, tones: Ints) -> None:
         """Show a span as far as it is cut, in the tones (h, w) of its pixels."""
         plot = span.of
-        shown, before = self._image[self._plot][plot], self._before[self._plot][plot]
-        shown[...] = before
+        image, before = self._image[self._plot][plot], self._before[self._plot][plot]
+        image[...] = before
         cut = levels > 0
         share = levels[cut].astype(np.uint16)[:, None]
         behind = self._behind[(slice(None), *plot)][tones[cut] - 1, *np.nonzero(cut)]
-        shown[cut] = (before[cut] * (FULL - share) + behind * share) // FULL
+        image[cut] = (before[cut] * (FULL - share) + behind * share) // FULL
 
 
 def fate(freed_s: float, t_s: float, speed: float) -> Fate:

@@ -93,7 +93,7 @@ class ReadoutPanel:
 def _boxes(layout: Layout, lines: int) -> list[Box]:
     """Boxes of the lines; below a plot the first two and the last take the whole width."""
     panel, row = layout.panel, ROW * layout.unit
-    if layout.beside:
+    if layout.is_wide:
         boxes = [_row(panel, number, row) for number in range(lines)]
         return [*boxes[:-1], boxes[-1]._replace(bottom=boxes[-1].bottom + round(row))]
     row = (panel.bottom - panel.top) / ((lines - 2) // 2 + 3)
@@ -242,7 +242,7 @@ class Screen:
         head, size = layout.head, style.TITLE * unit
         title = elide(canvas, self._course.run.scenario.title, size, head.right - head.left)
         canvas.text((head.left, 0.42 * (head.top + head.bottom)), title, size, Paint.INK)
-        if layout.beside:
+        if layout.is_wide:
             box = layout.panel._replace(top=self._panel.foot)
             kerf_px = self._course.run.scenario.wire.kerf_um * self.whole.px_per_um
             wider = kerf_px < style.KERF_WIDTH_MIN * unit

@@ -14,11 +14,11 @@ def page_text(code: str, language: Language, level: int = 1) -> str:
     of, say = page(code, language), Words(language)
     mend = f"{say('findings.page-mend')}\n{of.mend.strip()}"
     parts = [f"{'#' * level} {page_title(code, language)}", of.why.strip(), mend]
-    shown = example(code)
-    if shown:
-        key = "findings.page-example-with" if shown.options else "findings.page-example"
-        head = say(key, options=" ".join(shown.options))
-        parts += [f"{head}\n{_fenced(shown.program)}", f"{say('findings.page-mended')}\n{_fenced(shown.mended)}"]
+    excerpt = example(code)
+    if excerpt:
+        key = "findings.page-example-with" if excerpt.options else "findings.page-example"
+        head = say(key, options=" ".join(excerpt.options))
+        parts += [f"{head}\n{_fenced(excerpt.program)}", f"{say('findings.page-mended')}\n{_fenced(excerpt.mended)}"]
     return "\n\n".join(parts) + "\n"
 
 

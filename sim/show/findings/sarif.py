@@ -102,8 +102,8 @@ def _notices(result: CheckResult, index: int, language: Language) -> Iterator[di
 def _artifact(result: CheckResult) -> dict[str, Any]:
     charset = {"encoding": _CHARSETS[result.encoding]} if result.encoding in _CHARSETS else {}
     bag = {"settingsFile": result.settings_file, "silenced": result.silenced._asdict()}
-    told = {"properties": bag} if result.settings_file or any(result.silenced) else {}
-    return {"location": _location(result.name), "roles": ["analysisTarget"], **charset, **told}
+    properties = {"properties": bag} if result.settings_file or any(result.silenced) else {}
+    return {"location": _location(result.name), "roles": ["analysisTarget"], **charset, **properties}
 
 
 def _settings(name: str) -> dict[str, Any]:

@@ -48,9 +48,9 @@ def read_as(result: CheckResult, language: Language) -> str:
     """``read as (ISO112): unit 0.001 mm (…), …``: what the text leaves open; empty where it leaves nothing."""
     if not result.assumptions:
         return ""
-    told = next((finding for finding, _ in telling(result.findings, ReadAs)), None)
-    key = "findings.read-as-finding" if told else "findings.read-as"
-    return Words(language)(key, code=told and told.code, parts=as_read(result.assumptions))
+    found = next((finding for finding, _ in telling(result.findings, ReadAs)), None)
+    key = "findings.read-as-finding" if found else "findings.read-as"
+    return Words(language)(key, code=found and found.code, parts=as_read(result.assumptions))
 
 
 def summary(totals: Totals, language: Language) -> str:

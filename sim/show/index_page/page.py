@@ -58,8 +58,8 @@ class BesideTheIndex(NamedTuple):
     message: Bilingual
 
 
-def index_page(index: Mapping[str, Any], beside: Sequence[BesideTheIndex]) -> str:
-    """``index.html`` of an index; `beside` are more of its programs, in their order.
+def index_page(index: Mapping[str, Any], additions: Sequence[BesideTheIndex]) -> str:
+    """``index.html`` of an index; `additions` are more of its programs, in their order.
 
     The same index gives the same bytes. Whatever a program or a file name says stands escaped.
     """
@@ -70,7 +70,7 @@ def index_page(index: Mapping[str, Any], beside: Sequence[BesideTheIndex]) -> st
         "index.html.j2",
         counts=index["counts"],
         data={
-            "programs": [_program(program, more) for program, more in zip(programs, beside, strict=True)],
+            "programs": [_program(program, more) for program, more in zip(programs, additions, strict=True)],
             "titles": {code: _title(code)._asdict() for code in codes},
             "box": [WIDTH, HEIGHT],
         },

@@ -52,9 +52,9 @@ def _offset(run: DryRun) -> WrittenQuestion:
     others = (wire.diameter_um / 2.0, wire.diameter_um, wire.diameter_um + wire.spark_gap_um, wire.kerf_um)
     lengths = [f"{um:g} µm" for um in sorted({round(um, 3) for um in (wire.reach_um, *others)})]
     right = lengths.index(f"{round(wire.reach_um, 3):g} µm")
-    told = {"radius": f"{wire.diameter_um / 2.0:g}", "gap": f"{wire.spark_gap_um:g}", "reach": lengths[right]}
-    ask = bilingual("quiz.offset", diameter=f"{wire.diameter_um:g}", gap=told["gap"])
-    return WrittenQuestion(ask, tuple(map(same, lengths)), right, bilingual("quiz.offset_why", **told))
+    values = {"radius": f"{wire.diameter_um / 2.0:g}", "gap": f"{wire.spark_gap_um:g}", "reach": lengths[right]}
+    ask = bilingual("quiz.offset", diameter=f"{wire.diameter_um:g}", gap=values["gap"])
+    return WrittenQuestion(ask, tuple(map(same, lengths)), right, bilingual("quiz.offset_why", **values))
 
 
 def _faults(run: DryRun) -> Iterator[OfRun]:

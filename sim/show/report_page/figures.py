@@ -29,18 +29,18 @@ class Figure(NamedTuple):
         Its place in report.json: keys and list indices joined with dots; empty where it is counted from several.
     value
         As the report has it.
-    shown, unit
+    value_text, unit
         As people read it.
-    beside
+    note
         What else there is to say.
     """
 
     name: Bilingual
     entry: str
     value: float
-    shown: Bilingual
+    value_text: Bilingual
     unit: str = ""
-    beside: Bilingual = _NONE
+    note: Bilingual = _NONE
 
 
 def why(run: DryRun) -> list[Bilingual]:
@@ -93,8 +93,8 @@ def _ended(run: DryRun) -> list[Bilingual]:
     ended = run.ended
     if ended is None:
         return []
-    told = {"axis": ended.axis.name, "block": run.block_names.of_row(ended.row), "time": lasting(ended.t_s)}
-    return [bilingual(f"report.ended-{ended.cause}", **told)]
+    values = {"axis": ended.axis.name, "block": run.block_names.of_row(ended.row), "time": lasting(ended.t_s)}
+    return [bilingual(f"report.ended-{ended.cause}", **values)]
 
 
 def _incomplete(run: DryRun) -> list[Bilingual]:
@@ -113,20 +113,20 @@ def _size(run: DryRun, report: ReportDocument) -> Iterator[Figure]:
     work = bilingual("report.in-work", thickness=f"{thickness_mm:g}", machine=machine)
     if run.feeds is None:
         yield Figure(
-            bilingual("report.card-time"), "time_s.total", total, lasting(total), beside=bilingual("report.card-speeds")
+            bilingual("report.card-time"), "time_s.total", total, lasting(total), note=bilingual("report.card-speeds")
         )
     else:
-        yield Figure(bilingual("report.time"), "time_s.total", total, lasting(total), beside=work)
+        yield Figure(bilingual("report.time"), "time_s.total", total, lasting(total), note=work)
     jumps, arcs = int(run.toolpath.is_jump.sum()), int(run.toolpath.is_arc.sum())
     kinds = numbered({"line": len(run.toolpath) - arcs - jumps, "arc": arcs, "jump": jumps})
-    yield _figure("blocks", report, "summary.blocks")._replace(beside=kinds)
+    yield _figure("blocks", report, "summary.blocks")._replace(note=kinds)
     length = _figure("path-length", report, "summary.length_um", 3, 1000.0)
-    yield length._replace(unit="mm", beside=bilingual("report.jumps-included") if jumps else _NONE)
+    yield length._replace(unit="mm", note=bilingual("report.jumps-included") if jumps else _NONE)
 
 
 def _steps(report: ReportDocument) -> Figure:
     return _figure("steps", report, "summary.steps")._replace(
-        beside=bilingual(f"report.{report['interpolator']['name']}")
+        note=bilingual(f"report.{report['interpolator']['name']}")
     )
 
 
@@ -136,7 +136,7 @@ def _worst(run: DryRun, report: ReportDocument) -> Iterator[Figure]:
         block = run.block_names.at(where["block"])
         place = bilingual("report.at-place", block=block, x=mm_text(where["x_um"]), y=mm_text(where["y_um"]))
         figure = _figure("worst-deviation", report, "deviation.wire.max_um", 2)
-        yield figure._replace(unit="µm", beside=place)
+        yield figure._replace(unit="µm", note=place)
 
 
 def _closure(run: DryRun, report: ReportDocument) -> Iterator[Figure]:
@@ -146,31 +146,31 @@ def _closure(run: DryRun, report: ReportDocument) -> Iterator[Figure]:
         return
     at = max(closing, key=lambda at: (run.whole_contours[at].is_open, run.whole_contours[at].closure_stepped_um))
     contour = report["contours"][at]
-    told: dict[str, object] = {"exact": length(contour["closure_exact_um"])}
+    values: dict[str, object] = {"exact": length(contour["closure_exact_um"])}
     if len(run.whole_contours) > 1:
         first, last = (run.block_names.at(contour[key]) for key in ("first_block", "last_block"))
-        told |= {"n": len(run.whole_contours), "first": first, "last": last}
-    beside = bilingual("report.closure-worst" if len(run.whole_contours) > 1 else "report.closure-exact", **told)
+        values |= {"n": len(run.whole_contours), "first": first, "last": last}
+    note = bilingual("report.closure-worst" if len(run.whole_contours) > 1 else "report.closure-exact", **values)
     stepped, unit = length(contour["closure_stepped_um"]).split(" ")
     figure = _figure("closure", report, f"contours.{at}.closure_stepped_um")
-    yield figure._replace(shown=same(stepped), unit=unit, beside=beside)
+    yield figure._replace(value_text=same(stepped), unit=unit, note=note)
 
 
 def _pieces(report: ReportDocument) -> Iterator[Figure]:
     if report["remains"] is not None:
         kinds = [piece["kind"] for piece in report["remains"]["pieces"]]
-        beside = numbered({kind: kinds.count(kind) for kind in ("part", "slug")})
-        yield Figure(bilingual("report.pieces"), "", len(kinds), same(len(kinds)), beside=beside)
+        note = numbered({kind: kinds.count(kind) for kind in ("part", "slug")})
+        yield Figure(bilingual("report.pieces"), "", len(kinds), same(len(kinds)), note=note)
 
 
 def _drawing(report: ReportDocument) -> Iterator[Figure]:
     if report["drawing"] is not None:
         allowed = bilingual("report.allowed", tolerance=f"{report['drawing']['tolerance_um']:g}")
-        yield _figure("off-drawing", report, "drawing.max_um", 2)._replace(unit="µm", beside=allowed)
+        yield _figure("off-drawing", report, "drawing.max_um", 2)._replace(unit="µm", note=allowed)
 
 
 def _offset(report: ReportDocument) -> Iterator[Figure]:
     if report["offset"] is not None:
         side = bilingual(f"report.side-{report['offset']['side']}")
         by = ", ".join(f"{mm(each['by_um']):.3f}" for each in report["offset"]["passes"])
-        yield _figure("offset-added", report, "offset.by_um")._replace(shown=same(by), unit="mm", beside=side)
+        yield _figure("offset-added", report, "offset.by_um")._replace(value_text=same(by), unit="mm", note=side)

@@ -118,8 +118,8 @@ def _settings(written: WrittenSection) -> tuple[Setting, ...]:
 
 
 def _setting(section: Section, key: Key, value: Any) -> Setting:
-    shown = value_word(value) if isinstance(key.kind, OneOf) else _value(value)
-    return Setting(words_of(section, key).name, key.name, shown, key.kind.unit)
+    text = value_word(value) if isinstance(key.kind, OneOf) else _value(value)
+    return Setting(words_of(section, key).name, key.name, text, key.kind.unit)
 
 
 def _value(value: Any) -> Bilingual:

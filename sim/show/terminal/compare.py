@@ -36,7 +36,7 @@ def print_comparison(of: Comparison, program: str, names: BlockNames, offset: st
         paragraph(
             tell("compare.warning" if of.passes else "compare.error", text=text), "yellow" if of.passes else "red"
         )
-    figures_of = {"most": _um(of.max_um), "tolerance": _um(of.asked.tolerance_um)}
+    figures_of = {"most": _um(of.max_um), "tolerance": _um(of.request.tolerance_um)}
     verdict = tell("compare.pass" if of.passes else "compare.fail", **figures_of)
     paragraph(verdict, "bold green" if of.passes else "bold red")
 
@@ -65,7 +65,7 @@ def _most(place: WorstPlace, names: BlockNames, tell: Words) -> str:
 
 def _laid(of: Comparison, tell: Words) -> str:
     """How the drawing lies in the program's coordinates."""
-    if not of.asked.fitted:
+    if not of.request.fitted:
         return tell("compare.laid-as-is")
     turn, (x, y), mirror = of.placement
     turned = f"{round(float(np.degrees(turn)), 4) + 0.0:.4f}"
@@ -95,7 +95,7 @@ def _worst(of: Comparison, names: BlockNames, tell: Words) -> Table:
 def _corners(of: Comparison, names: BlockNames, tell: Words) -> Table:
     """Where the wire must leave something, the deepest first."""
     corners = sorted(corner_places(of), key=lambda corner: -corner.depth_um)
-    counted = "counted" if of.asked.sharp_corners == "fail" else "not-counted"
+    counted = "counted" if of.request.sharp_corners == "fail" else "not-counted"
     title = tell(f"compare.corners-{counted}", number=f"{len(corners):,}")
     if len(corners) > _MOST_CORNERS:
         title = tell("compare.corners-deepest", title=title, most=_MOST_CORNERS)

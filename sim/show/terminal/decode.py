@@ -53,8 +53,8 @@ def _print_table(rows: Sequence[tuple[str, ...]]) -> None:
         too_long = heads[0] if cells(heads[0]) > wide[0] else ""
         for line in wrapped(too_long, width, _INDENT, _INDENT * 2) if too_long else ():
             say(line)
-        shown = ["" if too_long else heads[0], *heads[1:]]
-        filled = (each + " " * (room - cells(each)) for each, room in zip(shown, wide, strict=True))
+        titles = ["" if too_long else heads[0], *heads[1:]]
+        filled = (each + " " * (room - cells(each)) for each, room in zip(titles, wide, strict=True))
         for line in wrapped(text, width, _INDENT + "".join(each + _GAP for each in filled)):
             say(line)
 

@@ -66,8 +66,8 @@ def _source(finding: Finding, excerpt: str, gutter: str, width: int) -> Iterator
     # The line's number before it keeps a build server from taking the line of a program for a command to itself.
     room = width - len(gutter) - len(" | ")
     first, past = finding.span
-    shown, carets = caret_lines(excerpt, max(finding.column, 1), past - first, room)
-    yield (Part(f"  {finding.line} | {shown}".rstrip()),)
+    excerpt_line, carets = caret_lines(excerpt, max(finding.column, 1), past - first, room)
+    yield (Part(f"  {finding.line} | {excerpt_line}".rstrip()),)
     if finding.column:
         yield Part(f"{gutter} | "), Part(carets, "severity")
 

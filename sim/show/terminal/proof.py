@@ -43,7 +43,7 @@ def proof_lines(done: MadeProgram, name: str, language: Language, width: int) ->
             "program.edge",
             there=f"{float(edge.edge_to_drawing.max_um.max()):.2f}",
             back=f"{float(edge.drawing_to_edge.max_um.max()):.2f}",
-            tolerance=f"{edge.asked.tolerance_um:g}",
+            tolerance=f"{edge.request.tolerance_um:g}",
             machine=machine_name(proof.run.scenario.machine),
         )
         yield from wrapped(text, width, "", _INDENT)

@@ -97,15 +97,15 @@ def piece_rows(run: DryRun, tell: Words) -> list[Row]:
     if not freed:
         return [(tell("summary.pieces"), tell("summary.pieces-none"))]
     names = run.block_names
-    shown = [_piece(piece, names, tell) for piece in freed[:_MOST_PIECES]]
+    lines = [_piece(piece, names, tell) for piece in freed[:_MOST_PIECES]]
     more = [tell("summary.pieces-more", n=len(freed) - _MOST_PIECES)] if len(freed) > _MOST_PIECES else []
-    return [(tell("summary.pieces") if at == 0 else "", text) for at, text in enumerate([*shown, *more])]
+    return [(tell("summary.pieces") if at == 0 else "", text) for at, text in enumerate([*lines, *more])]
 
 
 def _piece(piece: Piece, names: BlockNames, tell: Words) -> str:
     freed = piece.freed
     mass = f"{piece.mass_g:,.1f} g" if piece.mass_g >= 1.0 else f"{piece.mass_g * 1e3:,.0f} mg"
-    told = tell(
+    text = tell(
         "summary.piece",
         kind=tell(f"summary.kind-{piece.kind}"),
         area=f"{piece.area_mm2:,.2f}",
@@ -114,10 +114,10 @@ def _piece(piece: Piece, names: BlockNames, tell: Words) -> str:
         time=lasting(freed.t_s),
     )
     if piece.early:
-        return tell("summary.piece-early", piece=told, left=f"{mm(piece.cut_after_um):,.3f}")
+        return tell("summary.piece-early", piece=text, left=f"{mm(piece.cut_after_um):,.3f}")
     if piece.held_after_block is not None:
-        return tell("summary.piece-held", piece=told, block=names.at(piece.held_after_block))
-    return told
+        return tell("summary.piece-held", piece=text, block=names.at(piece.held_after_block))
+    return text
 
 
 def drawing_rows(run: DryRun, tell: Words) -> list[Row]:

@@ -136,14 +136,14 @@ def kicked(drive: Drive, kick: Kick) -> Kicked:
     damper, stopped = touching * drive.damper, kick.length_s * drive.friction
     pull = drive.spring * flank + damper * (kick.motor_um_s - velocity / 2.0)
     coasting = velocity * (1.0 - half_s * drive.viscous)
-    held = 1.0 / (1.0 + half_s * (damper + drive.viscous))
-    new = held * _rubbed(coasting + kick.length_s * pull, stopped)
-    asked = pull - damper * new / 2.0
-    given = asked
-    if abs(asked) > kick.limit:
-        given = math.copysign(kick.limit, asked)
+    gain = 1.0 / (1.0 + half_s * (damper + drive.viscous))
+    new = gain * _rubbed(coasting + kick.length_s * pull, stopped)
+    force = pull - damper * new / 2.0
+    given = force
+    if abs(force) > kick.limit:
+        given = math.copysign(kick.limit, force)
     if drive.slack_um > 0.0 and flank * given < 0.0:  # a flank pushes, and never pulls
         given = 0.0
-    if given != asked:
+    if given != force:
         new = _rubbed(coasting + kick.length_s * given, stopped) / (1.0 + half_s * drive.viscous)
     return Kicked(new, given)

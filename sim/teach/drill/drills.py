@@ -271,12 +271,12 @@ def _chosen(found: list[_Fault], count: int) -> Iterator[_Fault]:
 def _drill(sound: Program, fault: _Fault, settings: CheckSettings, before: Counter[tuple[str, str]]) -> Drill:
     """A fault with what the check says of it."""
     result = check_program(fault.program, settings)
-    told = before.copy()
+    damaged = before.copy()
     findings = []
     for found, key in zip(result.findings, _told_findings(fault.program, result.findings), strict=True):
-        if told[key] <= 0:
+        if damaged[key] <= 0:
             findings.append(found)
-        told[key] -= 1
+        damaged[key] -= 1
     listed = lines_of(fault.program)
     return Drill(
         fault.kind,

@@ -245,7 +245,7 @@ def test_a_slip_of_units_is_named_and_not_fitted_away(scale: float) -> None:
     assert found.scale == pytest.approx(scale)
     assert found.max_um > 1000.0
     assert not found.passes
-    assert not replace(found, asked=FitRequest(1e9)).passes  # however large the tolerance is
+    assert not replace(found, request=FitRequest(1e9)).passes  # however large the tolerance is
 
 
 @pytest.mark.parametrize("scale", [1.05, 2.0, 25.0])

@@ -21,10 +21,10 @@ def test_a_crowd_at_one_distance_is_counted_and_what_lies_apart_is_not() -> None
     around = 1000.0 * np.stack([np.cos(turn), np.sin(turn)], axis=1)
     spokes = indexed(curves_between(around, 2.0 * around, np.full_like(around, np.nan), np.zeros(len(number))))
     nearest(spokes, np.zeros((7, 2)))
-    assert spokes.effort.held >= 7 * 900  # from their middle all are equally far
+    assert spokes.effort.looked_at >= 7 * 900  # from their middle all are equally far
     apart = indexed(_row_of_lines(1000))
     nearest(apart, np.column_stack([number + 0.3, np.ones(len(number))]))
-    assert apart.effort.held < 10 * len(number)
+    assert apart.effort.looked_at < 10 * len(number)
 
 
 def test_more_than_a_comparison_may_take_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -44,7 +44,7 @@ def test_ten_times_as_many_curves_are_ten_times_the_work() -> None:
         ring = curves_between(corner, np.roll(corner, -1, axis=0), none, np.zeros(number))
         index = indexed(ring)
         directed(placed(ring, Placement(0.0, (3.0, 2.0), mirror=False)), index)
-        held.append(index.effort.held)
+        held.append(index.effort.looked_at)
     assert held[1] < 12 * held[0]
 
 

@@ -86,9 +86,9 @@ def test_the_arm_is_read_from_the_machine(tmp_path: Path) -> None:
     shipped = (MACHINES / "dk7740.toml").read_text("utf-8")
     assert load_machine("dk7740").arm_um is None
     (tmp_path / "m.toml").write_text(shipped + "\n[arm]\noutline_mm = [[-1, -1], [1, -1], [0, 2]]\n", "utf-8")
-    machine = load_machine("m.toml", beside=tmp_path)
+    machine = load_machine("m.toml", folder=tmp_path)
     assert machine.arm_um == (Point(-1000, -1000), Point(1000, -1000), Point(0, 2000))
     for bad, complaint in (("", r"\[arm\]: outline_mm is missing"), ("outline = 3", "did you mean outline_mm")):
         (tmp_path / "m.toml").write_text(f"{shipped}\n[arm]\n{bad}\n", "utf-8")
         with pytest.raises(SettingsError, match=complaint):
-            load_machine("m.toml", beside=tmp_path)
+            load_machine("m.toml", folder=tmp_path)

@@ -110,8 +110,8 @@ def _joints(strokes: Strokes, *, is_closed: bool) -> _Joints:
 def _corners(joints: _Joints, within_um: float) -> Bools:
     """Starts (p,) of strokes through which no arc runs."""
     turn = np.where(joints.is_smooth, np.abs(joints.turn_rad), 0.0)
-    beside = np.median([np.roll(turn, step) for step in (-2, -1, 1, 2)], axis=0)
-    stands_out = (turn > _CORNER_TIMES * beside) & (joints.aside_um > 0.5 * within_um)
+    around = np.median([np.roll(turn, step) for step in (-2, -1, 1, 2)], axis=0)
+    stands_out = (turn > _CORNER_TIMES * around) & (joints.aside_um > 0.5 * within_um)
     corner: Bools = ~joints.is_smooth | (turn >= _CORNER_RAD) | stands_out
     return corner
 

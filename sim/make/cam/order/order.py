@@ -102,18 +102,18 @@ def _run_back(walk: Walk, low: int, high: int) -> None:
 def _turned(walk: Walk, near: int, number: int, step: int) -> bool:
     """Run a part of the way backwards, if that is shorter, so that `one` comes to stand beside one of those near it."""
     past = len(walk.way)
-    beside = walk.way[(walk.at[number] + step) % past]
-    old = _apart(walk, number, beside)
+    neighbour = walk.way[(walk.at[number] + step) % past]
+    old = _apart(walk, number, neighbour)
     for k in range(number * near, number * near + near):
         other = walk.near[k]
         new = _apart(walk, number, other)
         if new >= old:
             return False
         behind = walk.way[(walk.at[other] + step) % past]
-        if old + _apart(walk, other, behind) - new - _apart(walk, beside, behind) > _GAIN_UM:
+        if old + _apart(walk, other, behind) - new - _apart(walk, neighbour, behind) > _GAIN_UM:
             low, high = min(walk.at[number], walk.at[other]), max(walk.at[number], walk.at[other])
             _run_back(walk, low + (step > 0), high - (step < 0))
-            for end in (number, beside, other, behind):
+            for end in (number, neighbour, other, behind):
                 walk.is_open[end] = 1
             return True
     return False

@@ -167,8 +167,8 @@ def walls(figures: Sequence[Figure], offset_um: Sequence[float], reach_um: float
         )
         raise CannotCutError(Refusal("too-near", tuple(Point(x, y) for x, y in close.place_um[bad].tolist()), values))
     touch = close.apart_um[thin] <= BESIDE_UM
-    told = ("contours-touch", thin[touch]), ("thin-walls", thin[~touch])
-    return tuple(_contact_remark(name, close, which) for name, which in told if len(which))
+    named = ("contours-touch", thin[touch]), ("thin-walls", thin[~touch])
+    return tuple(_contact_remark(name, close, which) for name, which in named if len(which))
 
 
 class _Close(NamedTuple):

@@ -101,14 +101,14 @@ _FARTHEST = 1.5  # times the offset: how far from a corner of the contour the wa
 def offsets_of(figure: Figure, passes_um: tuple[float, ...], making: Making) -> tuple[float, ...]:
     """Offset of each pass over a figure: as its layer asks for, else as for all. CannotCutError where one rises."""
     layer = figure.layer.lower()
-    asked = next(
+    chosen = next(
         (wish.passes_um for wish in making.layers if wish.layer.lower() == layer and wish.passes_um), passes_um
     )
-    for number, (by_um, next_um) in enumerate(pairwise(asked), start=2):
+    for number, (by_um, next_um) in enumerate(pairwise(chosen), start=2):
         if next_um > by_um:
             values = (("number", str(number)), ("offset_mm", f"{next_um / 1000:g}"), ("before_mm", f"{by_um / 1000:g}"))
             raise CannotCutError(Refusal("offset-rises", (), values))
-    return asked
+    return chosen
 
 
 def around(figure: Figure, thread: Thread, by_um: float, making: Making) -> Curves:

@@ -60,21 +60,21 @@ def least_um(figure: Figure, making: Making, reach_um: float) -> float:
 
 def as_run(scenario: Scenario, plan: CutPlan, toolpath: Toolpath) -> AsRun:
     """How the program of a plan, whose path is read back as this one, is run."""
-    asked = replace(scenario, kerf=True, drawing=None, offset=None, quiz=(), expect=())
-    asked = replace(asked, start_mm=scenario.start_mm or middle_mm(toolpath, scenario.machine.table))
+    for_proof = replace(scenario, kerf=True, drawing=None, offset=None, quiz=(), expect=())
+    for_proof = replace(for_proof, start_mm=scenario.start_mm or middle_mm(toolpath, scenario.machine.table))
     edge_um = tuple(least_um(cut.figure, plan.making, scenario.wire.reach_um) for cut in plan.cuts)
     least = min(edge_um, default=scenario.wire.reach_um)
     if least <= 0.0:
-        return _by_controller(asked, plan, edge_um)
+        return _by_controller(for_proof, plan, edge_um)
     wire = _wire(scenario.wire, least)
     if wire is None:
-        return AsRun(replace(asked, kerf=False), edge_um, (), (Remark("no-wire", {"offset": least}),))
+        return AsRun(replace(for_proof, kerf=False), edge_um, (), (Remark("no-wire", {"offset": least}),))
     notes = _run_remarks(scenario.wire, wire)
     if plan.is_added:
         side = plan.cuts[0].side
-        asked = replace(asked, offset=Offset((OffsetPass(least),), side))
+        for_proof = replace(for_proof, offset=Offset((OffsetPass(least),), side))
         notes = (*notes, Remark("added", {"offset": least, "side": side.name.lower()}))
-    how = AsRun(replace(asked, wire=wire), edge_um, notes)
+    how = AsRun(replace(for_proof, wire=wire), edge_um, notes)
     return how if how.is_one_edge else how._replace(unproved=(Remark("edges-differ"),))
 
 

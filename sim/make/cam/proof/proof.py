@@ -201,7 +201,7 @@ def _path(given: ToProve, target: Target, run: DryRun, how: AsRun) -> tuple[Comp
 def _off_faults(given: ToProve, target: Target, run: DryRun, found: Comparison, of_cut: Bools) -> Iterator[Fault]:
     """The worst place of the path past its bound, both ways, and leads that cut into parts, of some of the cuts."""
     number = _cut_of_block(run)
-    bound_um = found.asked.tolerance_um
+    bound_um = found.request.tolerance_um
     for name, deviations in (("path", by_block(found)), ("uncut", by_entity(found))):
         here = [
             deviation

@@ -145,9 +145,9 @@ def target_of(drawn: Drawing, plan: CutPlan) -> tuple[Target | None, tuple[Fault
     found = _nearest(_features([cut.figure.contour for cut in plan.cuts]), _features(rings))
     known = np.flatnonzero(found >= 0)
     once, first = np.unique(found[known], return_index=True)
-    told = {each.entity for each in plan.left_out}
+    left_out = {each.entity for each in plan.left_out}
     missing = [
-        at for at in np.setdiff1d(np.arange(len(closed)), once).tolist() if not _is_told(drawn, closed[at], told)
+        at for at in np.setdiff1d(np.arange(len(closed)), once).tolist() if not _is_told(drawn, closed[at], left_out)
     ]
     faults = (
         *(_of_cut("stray", plan, at) for at in np.flatnonzero(found < 0).tolist()),
@@ -157,10 +157,10 @@ def target_of(drawn: Drawing, plan: CutPlan) -> tuple[Target | None, tuple[Fault
     if not len(once):
         return None, faults
     shapes = [polygon(rings[at]) for at in (*once.tolist(), *missing)]
-    kept = [closed[at] for at in once.tolist()]
-    gap_um = max(loop.gap_um for loop in kept)
-    depth = _depths(shapes)[: len(kept)]
-    return Target(_only(drawn, kept), known[first], tuple(shapes[: len(kept)]), depth, gap_um), faults
+    loops = [closed[at] for at in once.tolist()]
+    gap_um = max(loop.gap_um for loop in loops)
+    depth = _depths(shapes)[: len(loops)]
+    return Target(_only(drawn, loops), known[first], tuple(shapes[: len(loops)]), depth, gap_um), faults
 
 
 def _depths(shapes: Sequence[shapely.Polygon]) -> Ints:
@@ -226,12 +226,12 @@ def _only(drawn: Drawing, loops: Sequence[DrawnLoop]) -> Drawing:
     rings = [_bridged(drawn, loop) for loop in loops]
     number = [len(ring) for ring, _ in rings]
     past = np.cumsum(number)
-    kept, entity = np.unique(np.concatenate([of for _, of in rings]), return_inverse=True)
+    entities, entity = np.unique(np.concatenate([of for _, of in rings]), return_inverse=True)
     return replace(
         drawn,
         curves=joined([ring for ring, _ in rings]),
         entity=entity.reshape(-1).astype(np.int64),
-        entities=tuple(drawn.entities[at] for at in kept.tolist()),
+        entities=tuple(drawn.entities[at] for at in entities.tolist()),
         loops=tuple(
             DrawnLoop(np.arange(end - count, end), np.zeros(count, dtype=np.bool_), closed=True, gap_um=loop.gap_um)
             for loop, count, end in zip(loops, number, past.tolist(), strict=True)

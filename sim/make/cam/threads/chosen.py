@@ -49,8 +49,8 @@ def crowded(threads: Mapping[int, Thread], kept_um: Floats) -> list[int]:
 def _near(place_um: Floats, kept_um: Floats) -> tuple[Ints, Ints]:
     """Pairs of places (m, 2) and of those that are kept (k, 2) that lie nearer than a start hole, by their rows."""
     tree = shapely.STRtree(np.asarray(shapely.points(kept_um), dtype=np.object_))
-    place, kept = tree.query(shapely.points(place_um), predicate="dwithin", distance=HOLE_UM)
-    return place, kept
+    place, hole = tree.query(shapely.points(place_um), predicate="dwithin", distance=HOLE_UM)
+    return place, hole
 
 
 USUAL_LEAD_UM: Final = 2000.0

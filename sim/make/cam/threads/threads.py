@@ -29,10 +29,10 @@ def marks_of_layer(drawing: Drawing, layer: str) -> Floats:
 
     CannotCutError, ``no-marks``, where there is none.
     """
-    asked = layer.casefold()
-    found = [mark.place_um for mark in drawing.marks if mark.layer.casefold() == asked]
+    name = layer.casefold()
+    found = [mark.place_um for mark in drawing.marks if mark.layer.casefold() == name]
     on_layer = [
-        at for at, entity in enumerate(drawing.entities) if entity.layer.casefold() == asked and entity.kind == "CIRCLE"
+        at for at, entity in enumerate(drawing.entities) if entity.layer.casefold() == name and entity.kind == "CIRCLE"
     ]
     row = np.isin(drawing.entity, np.array(on_layer, dtype=np.int64)) & drawing.curves.is_arc
     place = _each_once(np.concatenate([np.array(found).reshape(-1, 2), drawing.curves.center_um[row]]))
@@ -106,8 +106,8 @@ def _straightened(figures: Sequence[Figure], threads: Sequence[Thread], making: 
     for figure, thread in zip(figures, threads, strict=True):
         if thread.lead != making.lead and thread.by != "contour":
             straight[making.lead in _ROUND and not figure.runs_inside].append(str(figure.number))
-    told = (("straight-leads", straight[False]), ("straight-to-parts", straight[True]))
-    return tuple(Remark(name, {"figures": ", ".join(numbers)}) for name, numbers in told if numbers)
+    named = (("straight-leads", straight[False]), ("straight-to-parts", straight[True]))
+    return tuple(Remark(name, {"figures": ", ".join(numbers)}) for name, numbers in named if numbers)
 
 
 class _Waste:
@@ -174,16 +174,16 @@ class _Waste:
     def chosen(self, wanted: Ints, making: Making, taken: Mapping[int, Thread]) -> dict[int, Thread]:
         """Threads of the figures `wanted` at places in their waste, apart from those that are taken."""
         spare_um = _SPARE_UM if making.lead in _ROUND else 0.0
-        asked = Wanted(self.clear_um, making.lead_um, spare_um)
+        demands = Wanted(self.clear_um, making.lead_um, spare_um)
         kept_um = np.array([each.place_um for each in taken.values()]).reshape(-1, 2)
-        found = chosen(self.room, self.side, wanted, asked, kept_um)
+        found = chosen(self.room, self.side, wanted, demands, kept_um)
         if making.lead == "point":
-            found |= before_corners(self.room, self.side, found, asked, kept_um)
+            found |= before_corners(self.room, self.side, found, demands, kept_um)
         missing = [at for at in wanted.tolist() if at not in found]
         if missing:
             places = tuple(Point(*self.figures[at].contour.start_um[0].tolist()) for at in missing)
             numbers = ", ".join(str(self.figures[at].number) for at in missing[:_MOST_NUMBERS])
-            values = (("figures", numbers), ("least_mm", f"{mm(asked.least_um):.4g}"))
+            values = (("figures", numbers), ("least_mm", f"{mm(demands.least_um):.4g}"))
             raise CannotCutError(Refusal("no-room", places[:_MOST_NUMBERS], values))
         return found
 

@@ -109,16 +109,16 @@ def draw_flags(board: Board, flags: Sequence[Flag], *, codes: bool) -> None:
     page = board.page
     reach = 2 * style.FLAG * page.unit
     centers = [page.view.to_px(flag.place_um) for flag in flags]
-    shown = [
+    drawn = [
         (flag, center)
         for flag, center in zip(flags, centers, strict=True)
         if page.plot.holds(box_around(center, 0.0, 0.0))
     ]
-    for _, center in shown:
+    for _, center in drawn:
         board.room.block(box_around(center, reach, reach))
-    for flag, center in shown[:_MOST_TEXTS] if codes else ():
+    for flag, center in drawn[:_MOST_TEXTS] if codes else ():
         _write(board, flag, center)
-    for flag, center in reversed(shown):
+    for flag, center in reversed(drawn):
         draw_flag(board.canvas, center, flag.severity, page.unit)
 
 

@@ -106,11 +106,11 @@ def finding_entries(cut: Cut, say: Words) -> list[Entry]:
         counted([found for found, has in zip(cut.findings, has_mark, strict=True) if has is wanted])
         for wanted in (True, False)
     )
-    told = [("cut.finding", count) for count in marked] + [("cut.finding_unmarked", count) for count in others]
+    by_key = [("cut.finding", count) for count in marked] + [("cut.finding_unmarked", count) for count in others]
     order = tuple(Severity)
     return [
         _finding_entry(key, count, say)
-        for key, count in sorted(told, key=lambda each: (order.index(each[1].severity), each[1].code))
+        for key, count in sorted(by_key, key=lambda each: (order.index(each[1].severity), each[1].code))
     ]
 
 

@@ -84,34 +84,34 @@ def programmed(program: Program, scenario: Scenario) -> Programmed:
 
     Raises what `sim.run.prepare.prepare` does, but takes a program whose own offset nobody tells: its contour is known.
     """
-    told = compensation_of(program.toolpath)
-    if told is not None and not is_known(told):
+    compensation = compensation_of(program.toolpath)
+    if compensation is not None and not is_known(compensation):
         checked, _ = checked_for(program, scenario)
         return Programmed(program, scenario, None, checked.findings, is_contour=True)
     ready = prepare(program, scenario)
     return Programmed(ready.program, scenario, ready.offset, ready.findings)
 
 
-def draw_path(sheet: Sheet[AnyCanvas], shown: Programmed) -> AnyCanvas:
+def draw_path(sheet: Sheet[AnyCanvas], path: Programmed) -> AnyCanvas:
     """Draw a path as it is programmed."""
-    return draw_cut(sheet, cut_of_path(shown, sheet.say))
+    return draw_cut(sheet, cut_of_path(path, sheet.say))
 
 
-def cut_of_path(shown: Programmed, say: Words) -> Cut:
+def cut_of_path(path: Programmed, say: Words) -> Cut:
     """A cut of which no more is known than its program, machine and wire; a contour alone has no kerf either."""
-    toolpath, scenario = shown.program.toolpath, shown.scenario
-    has_kerf = not shown.is_contour
+    toolpath, scenario = path.program.toolpath, path.scenario
+    has_kerf = not path.is_contour
     ran = say("cut.not_run") if has_kerf else f"{say('cut.not_run')} · {say('cut.contour_alone')}"
-    passes = find_passes(toolpath) if shown.offset is None else shown.offset.edge_passes
+    passes = find_passes(toolpath) if path.offset is None else path.offset.edge_passes
     return Cut(
         toolpath=toolpath,
         kerf_um=scenario.wire.kerf_um if has_kerf else 0.0,
         title=scenario.title,
-        note=note_of(toolpath, shown.offset, shown.findings, ran, say),
+        note=note_of(toolpath, path.offset, path.findings, ran, say),
         passes=passes if has_kerf and any(pass_.number > 1 for pass_ in passes.passes) else None,
         leads=(passes.of_row < 0) & ~toolpath.is_jump if has_kerf else None,
-        contour=None if shown.offset is None else shown.offset.passed.drawn,
+        contour=None if path.offset is None else path.offset.passed.drawn,
         bodies=bodies_of(scenario),
-        findings=shown.findings,
+        findings=path.findings,
         travel_um=travel_um(toolpath, scenario),
     )

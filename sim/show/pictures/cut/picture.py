@@ -168,8 +168,8 @@ def kerf_px(cut: Cut, page: Page) -> float:
 
 
 def _draw_head(canvas: Canvas, page: Page, say: Words, cut: Cut, lines: Lines) -> None:
-    beside = 0.0 if cut.travel_um is None else draw_table(canvas, page, say, cut.travel_um, lines.ideal)
-    draw_header(canvas, page.unit, cut.title, cut.note, beside_px=beside)
+    width = 0.0 if cut.travel_um is None else draw_table(canvas, page, say, cut.travel_um, lines.ideal)
+    draw_header(canvas, page.unit, cut.title, cut.note, beside_px=width)
 
 
 def _draw_below(canvas: Canvas, page: Page, cut: Cut, areas: Areas) -> None:

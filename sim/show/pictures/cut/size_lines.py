@@ -41,10 +41,10 @@ class Extents(NamedTuple):
         """The lines (2, 2) px, each from the lower to the higher coordinate."""
         (left, bottom), (right, top) = page.view.to_px(self.box_um)
         ends = page.view.to_px(self.path_um)
-        beside, level = float(ends[self.sides[0], 0]), float(ends[self.sides[1], 1])
-        beside += (2 * self.sides[0] - 1) * style.SIZE_AWAY * page.unit
+        offset, level = float(ends[self.sides[0], 0]), float(ends[self.sides[1], 1])
+        offset += (2 * self.sides[0] - 1) * style.SIZE_AWAY * page.unit
         level -= (2 * self.sides[1] - 1) * style.SIZE_AWAY * page.unit
-        return np.array([[left, level], [right, level]]), np.array([[beside, bottom], [beside, top]])
+        return np.array([[left, level], [right, level]]), np.array([[offset, bottom], [offset, top]])
 
 
 def extents_of(sizes: CutSizes, path_um: Floats) -> Extents | None:

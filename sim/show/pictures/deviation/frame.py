@@ -35,11 +35,11 @@ def titled(sheet: Sheet[AnyCanvas], samples: Samples, title: str, height_px: flo
 
 def range_shown(samples: Samples) -> AxisRange:
     """Range of the deviations of wire and steps in the cut, of 0, and of the tolerance where they come near it."""
-    shown = [samples.wire_um[samples.cutting], samples.steps_um[samples.cutting], np.zeros(1)]
-    reached = max(float(np.abs(each).max(initial=0.0)) for each in shown)
+    values = [samples.wire_um[samples.cutting], samples.steps_um[samples.cutting], np.zeros(1)]
+    reached = max(float(np.abs(each).max(initial=0.0)) for each in values)
     if reached >= SEEN * samples.tolerance_um:
-        shown.append(samples.tolerance_um * np.array([-1.0, 1.0]))
-    return range_of(*shown, least=LEAST_UM)
+        values.append(samples.tolerance_um * np.array([-1.0, 1.0]))
+    return range_of(*values, least=LEAST_UM)
 
 
 def write_names(canvas: Canvas, chart: Chart, x_name: str, y_name: str) -> None:

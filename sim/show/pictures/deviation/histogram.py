@@ -52,9 +52,9 @@ def draw_histogram(sheet: Sheet[AnyCanvas], samples: Samples) -> AnyCanvas:
 
 def bins_of(samples: Samples) -> Floats:
     """Borders (`BINS` + 1,) µm of the bins, 0 in the middle of one, all deviations of the cut inside."""
-    shown = range_shown(samples).wider(0.05)
-    width = (shown.high - shown.low) / (BINS - 1)
-    first = np.floor(shown.low / width - 0.5) + 0.5
+    span = range_shown(samples).wider(0.05)
+    width = (span.high - span.low) / (BINS - 1)
+    first = np.floor(span.low / width - 0.5) + 0.5
     return np.asarray((first + np.arange(BINS + 1)) * width, dtype=np.float64)
 
 

@@ -73,15 +73,15 @@ def draw_polar(sheet: Sheet[AnyCanvas], samples: Samples) -> AnyCanvas | None:
     found = [around for circle in circles_of(samples.run.toolpath) if (around := around_of(samples, circle))]
     if not found:
         return None
-    kept = sorted(sorted(found, key=lambda around: -around.most_um)[:MOST], key=lambda around: around.circle.first)
+    arcs = sorted(sorted(found, key=lambda around: -around.most_um)[:MOST], key=lambda around: around.circle.first)
     legend = in_rows(_entries(say), sheet.width_px, unit)
-    columns, rows = min(len(kept), 2), (len(kept) + 1) // 2
+    columns, rows = min(len(arcs), 2), (len(arcs) + 1) // 2
     wide = (sheet.width_px - GAP * unit) / columns
     size = min((wide - GAP * unit) / (2.0 * RIM), LARGEST * unit)
     tall = 2.0 * RIM * size + (CAPTION + GAP) * unit
-    some = say("deviation.some_circles", shown=len(kept), all=len(found)) if len(found) > len(kept) else ""
+    some = say("deviation.some_circles", shown=len(arcs), all=len(found)) if len(found) > len(arcs) else ""
     canvas = titled(sheet, samples, say("deviation.polar"), style.HEAD * unit + rows * tall + legend.foot, some)
-    for at, around in enumerate(kept):
+    for at, around in enumerate(arcs):
         x = (at % columns + 0.5) * wide + GAP * unit / 2.0
         top = style.HEAD * unit + at // columns * tall
         dial = Dial(unit, ring_for(_most(around)), (x, top + CAPTION * unit + RIM * size), size)

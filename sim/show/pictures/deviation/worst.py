@@ -120,9 +120,9 @@ def draw_worst(sheet: Sheet[AnyCanvas], samples: Samples, steps: Pulses) -> AnyC
     for number, (box, inset) in enumerate(zip(cells.insets, insets, strict=True), start=1):
         above = Box(box.left, box.top - CAPTION * unit, box.right, box.top)
         draw_badge(canvas, np.array([box.left + BADGE * unit, (above.top + above.bottom) / 2.0]), number, unit)
-        beside = above._replace(left=box.left + 2.6 * BADGE * unit)
+        side_box = above._replace(left=box.left + 2.6 * BADGE * unit)
         grid = grid_um(view_of(box, inset), unit)
-        write_caption(canvas, beside, _caption(say, samples, inset.at, grid), unit)
+        write_caption(canvas, side_box, _caption(say, samples, inset.at, grid), unit)
         draw_inset(canvas, box, inset, unit)
     places = np.array([inset.foot_um for inset in insets]).reshape(-1, 2)
     draw_key_map(canvas, cells.key_map, samples.run.toolpath, places, unit)

@@ -92,8 +92,8 @@ def _pooled(history: History, most: int) -> tuple[Floats, list[Envelope]]:
     bins = len(history.t_s) - 1
     first = np.unique(np.arange(min(most, bins)) * bins // min(most, bins))
     t_s = np.append(history.t_s[first], history.t_s[-1])
-    shown = (history.velocity_um_s, history.acceleration_um_s2, history.following_error_um, history.force_n)
-    return t_s, [_pool(envelope, first, np.diff(history.t_s)) for envelope in shown]
+    series = (history.velocity_um_s, history.acceleration_um_s2, history.following_error_um, history.force_n)
+    return t_s, [_pool(envelope, first, np.diff(history.t_s)) for envelope in series]
 
 
 def _pool(envelope: Envelope, first: Ints, width_s: Floats) -> Envelope:
@@ -114,8 +114,8 @@ def feed_levels(run: DryRun) -> list[Level]:
     if len(cut) > _MOST_FEEDS:
         cut = cut[[0, -1]]
     jump = [run.feeds.jump_um_s] if jumps.any() else []
-    shown = [("motion.cut_feed", cut.tolist()), ("motion.jump_feed", jump)]
-    return [Level(key, mm(feed), "", Paint.GREY) for key, feeds in shown for feed in feeds]
+    levels = [("motion.cut_feed", cut.tolist()), ("motion.jump_feed", jump)]
+    return [Level(key, mm(feed), "", Paint.GREY) for key, feeds in levels for feed in feeds]
 
 
 def limit_levels(run: DryRun, quantity: Quantity, key: str, scale: float = 1.0) -> list[Level]:

@@ -95,8 +95,8 @@ def draw_plan(sheet: Sheet[AnyCanvas], plan: CutPlan) -> AnyCanvas:
     """Draw a plan; its height follows from the part, from half the width of the sheet to the whole."""
     say = sheet.say
     legend = in_rows(_entries(plan, say), sheet.width_px, sheet.unit)
-    beside = BESIDE_PLOT._replace(bottom=_AXES + legend.foot / sheet.unit)
-    page = page_for(plan_bounds_um(plan), sheet.width_px, beside)
+    legend_box = BESIDE_PLOT._replace(bottom=_AXES + legend.foot / sheet.unit)
+    page = page_for(plan_bounds_um(plan), sheet.width_px, legend_box)
     canvas = sheet.page(page.height_px)
     draw_header(canvas, page.unit, plan.drawing.name, _note(plan, say))
     draw_frame(canvas, page)
