@@ -6,12 +6,22 @@ from collections.abc import Generator
 import pytest
 from browser import browsers, open_page
 from c_library import library
+from depth import DEEP
 from hypothesis import settings
 
 __all__ = ["browsers", "library", "open_page"]
 
 settings.register_profile("steady", deadline=None, derandomize=True)
 settings.load_profile("steady")
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Leave what takes long to ``make deep``: promises of size and time, and deaths of processes."""
+    if DEEP:
+        return
+    long = [item for item in items if item.get_closest_marker("deeper")]
+    config.hook.pytest_deselected(items=long)
+    items[:] = [item for item in items if item not in long]
 
 
 def pytest_collection_finish() -> None:

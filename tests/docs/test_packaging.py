@@ -11,6 +11,7 @@ import zipfile
 from importlib import metadata
 from pathlib import Path
 
+import pytest
 from places import ROOT
 
 from drycut import __version__
@@ -67,6 +68,7 @@ def test_source_package_holds_what_tests_and_documents_need(tmp_path: Path) -> N
     assert (wanted | scripts | others) - names == set()
 
 
+@pytest.mark.deeper
 def test_the_benchmark_runs_and_prints_its_figures() -> None:
     done = subprocess.run(
         [sys.executable, "tests/tools/bench.py", "path", "check", "--blocks", "60"],

@@ -154,6 +154,7 @@ def test_two_tabs_are_two_programs(browsers: Browsers, served: OpenedPage) -> No
         assert one.text() == WRONG
 
 
+@pytest.mark.deeper
 def test_a_large_program_is_shown_and_stays_in_hand(browsers: Browsers, tmp_path: Path) -> None:
     square = "B1000B0B1000GXL1\nB0B1000B1000GYL2\nB1000B0B1000GXL3\nB0B1000B1000GYL4\nD\nB1500B0B1500GXL1\nD\n"
     (tmp_path / "many.3b").write_text(f"{square * 4000}DD\n", "utf-8")

@@ -697,6 +697,7 @@ def million_steps() -> str:
     return long_page(f"{ZIGZAG} {ZIGZAG} DD")
 
 
+@pytest.mark.deeper
 def test_a_million_steps_load_soon_and_play_smoothly(open_page: OpenPage) -> None:
     text = million_steps()
     assert len(text.encode()) < 5e6

@@ -15,6 +15,9 @@ if TYPE_CHECKING:
     from playwright.sync_api import CDPSession, Page
 
 BLOCKS = 100_000
+
+pytestmark = pytest.mark.deeper
+
 COUNTED = """() => {
     window.points = 0;
     for (const name of ["lineTo", "arc"]) {

@@ -746,6 +746,7 @@ def test_no_damage_escapes_as_anything_but_an_error_of_drycut(tmp_path, version,
 # Cost
 
 
+@pytest.mark.deeper
 def test_ten_thousand_entities_are_read_and_chained_in_seconds(tmp_path):
     def draw(space: Modelspace) -> None:
         for at in range(100):

@@ -4,6 +4,7 @@ import time
 from pathlib import Path
 
 import pytest
+from depth import cases
 from fuzzing import iso_text
 from fuzzing.program_text import SEEDS
 from fuzzing.programs import judge
@@ -46,14 +47,17 @@ def test_any_input_gets_an_answer(name: str, tmp_path: Path) -> None:
     assert {number: promises for number, promises in broken.items() if promises} == {}
 
 
+@pytest.mark.deep
 @pytest.mark.parametrize("name", HOSTILE)
 def test_hostile_programs_end_in_bounded_time(name: str) -> None:
     begin = time.process_time()
-    result = check_file(Job("hostile.3b", HOSTILE[name](10_000).encode(), CheckSettings()))
+    text = HOSTILE[name](len(cases(2_000, 10_000)))
+    result = check_file(Job("hostile.3b", text.encode(), CheckSettings()))
     assert time.process_time() - begin < SLOWEST_S
     assert result.coverage.checks
 
 
+@pytest.mark.deeper
 def test_a_figure_that_is_never_left_takes_no_square_of_its_pauses() -> None:
     text = HOSTILE["20,000 circles with a jump of 1 µm"](50_000)
     begin = time.process_time()

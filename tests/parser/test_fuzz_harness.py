@@ -12,6 +12,7 @@ from fuzzing.targets import TARGETS
 from fuzzing.worker import Done, Failure, Task, tried
 
 
+@pytest.mark.deeper
 @pytest.mark.alone
 def test_every_planted_fault_is_told_with_the_number_of_its_input() -> None:
     task = Task(planted.PLANTED, SEED, 0, planted.LAST, most_wall_s=4.0)

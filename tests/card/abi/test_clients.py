@@ -37,6 +37,7 @@ def test_scan_from_the_limits_and_back(library: Made, tmp_path: Path) -> None:
     repeated(ran)
 
 
+@pytest.mark.deeper
 def test_scan_without_switches_finds_no_zero(library: Made, tmp_path: Path) -> None:
     ran = library.run(library.client("scan"), tmp_path)
     assert (ran.code, ran.out) == (1, "no zero: -1000000 0 0 2001\n")

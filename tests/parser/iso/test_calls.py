@@ -99,7 +99,7 @@ def read(text: str, dialect: str) -> Program:
 @pytest.mark.deep
 @pytest.mark.parametrize("family", ["fanuc", "skd2", "sodick", "common"])
 def test_calls_run_what_their_family_calls(family: str) -> None:
-    for seed in cases(120, 10_000):
+    for seed in cases(60, 10_000):
         made = Made(random.Random(f"{family} {seed}"), family)
         program = parse_program(made.text, choices=Choices(dialect=family))
         lengths = [round(length) for length in program.toolpath.length_um.tolist()]

@@ -129,6 +129,7 @@ def test_a_routine_that_calls_itself_ends_and_is_told(calls: int) -> None:
     assert len(found) == 1
 
 
+@pytest.mark.deeper
 def test_routines_that_call_one_another_very_often_end_and_are_told() -> None:
     chain = "".join(f"N{number}000 {f'G{number + 1:02} ' * 10}\nRET\n" for number in range(10, 19))
     text = f"OPEN PROG 1000\nCLEAR\n{chain}N19000 LINEAR\nRET\nCLOSE\n{HEAD}OPEN PROG 1\nCLEAR\nX1 F60\nG10 X2\nCLOSE\n"

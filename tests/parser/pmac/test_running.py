@@ -266,6 +266,7 @@ def test_a_sum_of_any_length_is_worked_out(body: str) -> None:
     assert len(ends(read(body, "P1=1\n"))) == 1
 
 
+@pytest.mark.deeper
 def test_names_that_double_one_another_are_bounded() -> None:
     doubled = "".join(f"#define a{n + 1} a{n} a{n}\n" for n in range(12))
     text = f"#define a0 X1\n{doubled}OPEN PROG 1\nCLEAR\nX2 F60\n{'a10 ' * 2000}\nCLOSE\n"

@@ -6,6 +6,7 @@ import re
 import pytest
 from bench_path import contour_text
 from cam_programs import sound_program
+from depth import cases
 from slips import contradiction, measured
 
 from parser.findings.findings import edited
@@ -81,8 +82,9 @@ def test_an_arc_label_that_may_be_a_slip_of_either_sense_names_both() -> None:
     assert "SR3" in found.values["others"].split(" / ")
 
 
+@pytest.mark.deep
 def test_slips_in_printed_programs_are_named_right_and_never_told_two_ways() -> None:
-    done = list(measured(random.Random(20261122), 3, printed=True))
+    done = list(measured(random.Random(20261122), len(cases(2, 12)), printed=True))
     assert [contradiction(one.result) for one in done if one.contradicts] == []
     assert not [one.slip for one in done if one.mended is False]
     assert sum(one.verdict == "right" for one in done) >= 0.95 * len(done)

@@ -6,7 +6,7 @@ import pytest
 from depth import cases
 from sound import checks, off_um, sound_program
 
-PROGRAMS, PARTS = len(cases(120, 3600)), 6
+PROGRAMS, PARTS = len(cases(60, 3600)), 6
 
 
 @pytest.mark.deep

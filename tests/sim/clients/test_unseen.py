@@ -197,6 +197,7 @@ def test_questions_are_counted_and_not_made_again() -> None:
     assert "? GT_GetCrdSts() ×" in found.program.text
 
 
+@pytest.mark.deeper
 def test_many_refusals_are_looked_at_in_time_that_grows_with_them() -> None:
     """A full list refuses each entry some hundred times; the next one is found among the tries that follow."""
 
@@ -215,6 +216,7 @@ def test_many_refusals_are_looked_at_in_time_that_grows_with_them() -> None:
     assert codes(found) == []
 
 
+@pytest.mark.deeper
 def test_sleeps_before_many_refusals_are_looked_at_in_time_that_grows_with_them() -> None:
     def work(calls: int) -> Callable[[GECard], None]:
         def polls(card: GECard) -> None:

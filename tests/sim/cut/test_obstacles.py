@@ -6,6 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from depth import cases
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from runs import plain_scenario
@@ -216,7 +217,8 @@ def test_wire_touches_first_where_a_plain_walk_says(clamp: Outline, way: Floats)
         assert distance[-1] == pytest.approx(RADIUS_UM, abs=EXACT_UM)
 
 
-@settings(max_examples=100)
+@pytest.mark.deep
+@settings(max_examples=len(cases(30, 1000)))
 @given(outlines(), outlines(reach_um=1000), ways())
 def test_arm_touches_first_where_a_plain_walk_says(clamp: Outline, arm: Outline, way: Floats) -> None:
     touch, before = first(way, swept(clamp, arm))

@@ -64,6 +64,7 @@ def start(folder: Path, *arguments: str) -> subprocess.Popen[bytes]:
     return subprocess.Popen([sys.executable, "-m", *arguments], cwd=folder, env=environment, **quiet)
 
 
+@pytest.mark.deeper
 @pytest.mark.filterwarnings("ignore")  # of what Dask itself uses
 def test_a_worker_of_two_is_killed_and_then_the_scheduler(running: Running, tmp_path: Path) -> None:
     shop, out = make_shop(tmp_path / "shop", 4), tmp_path / "out"

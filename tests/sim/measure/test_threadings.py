@@ -60,7 +60,18 @@ def path_of(name: str) -> Toolpath:
     return as_run(program_read(scenario, source_of(scenario)), scenario.offset).toolpath
 
 
-@pytest.mark.parametrize("name", ["keyhole", "die", "plate", "rough-and-trim", "iso-die", "out-of-travel", "logo"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "keyhole",
+        "die",
+        "plate",
+        "rough-and-trim",
+        "iso-die",
+        "out-of-travel",
+        pytest.param("logo", marks=pytest.mark.deeper),
+    ],
+)
 def test_reach_is_that_of_places_along_the_path(name: str) -> None:
     toolpath = path_of(name)
     found = threadings(toolpath, np.arange(len(toolpath) + 1.0))

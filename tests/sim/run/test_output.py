@@ -181,6 +181,7 @@ print(len(run.stepped), peak_kib() - before)
 
 
 # VmHWM, since ru_maxrss begins with what the process had that started this one: a worker that ran many tests.
+@pytest.mark.deeper
 @pytest.mark.skipif(sys.platform != "linux", reason="Linux tells the peak of a process in /proc")
 def test_steps_stream_in_memory_that_hardly_grows_with_them(tmp_path: Path) -> None:
     path = os.pathsep.join([str(ROOT / "tests" / "tools"), str(ROOT)])

@@ -208,6 +208,7 @@ def test_a_line_of_very_many_places_is_drawn_by_fewer_near_it() -> None:
     assert apart.max() < 1.7  # px, with rounded figures
 
 
+@pytest.mark.deeper
 def test_a_line_that_needs_very_many_places_keeps_them() -> None:
     at = np.arange(9000)
     hatch = np.column_stack([at / 6.0, np.where(at % 2, 700.0, 100.0)])

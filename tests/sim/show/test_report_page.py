@@ -420,6 +420,7 @@ def test_the_page_names_every_key_of_its_tables(part: Made) -> None:
     assert list(unlike(types, "TableData", {"name": "t", "columns": [{"head": {"en": "h"}}]})) != []
 
 
+@pytest.mark.deeper
 def test_a_page_of_many_blocks_stays_small() -> None:
     """25 bytes a block in its tables make 2.5 MB of 100,000 blocks; pictures are no larger for more blocks."""
     blocks = 8_000

@@ -303,6 +303,7 @@ def _seconds(number: int) -> float:
     return time.process_time() - before
 
 
+@pytest.mark.deeper
 def test_time_grows_with_the_curve_and_no_faster() -> None:
     """Eight times the spans in less than eight times the time."""
     assert _seconds(400) < 8.0 * max(_seconds(50), 0.02)
