@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from parser.findings.messages import Message
-from sim.cli.scenario_options import ENGINE_OPTION, Length
+from sim.cli.lengths import Length
+from sim.cli.scenario_options import ENGINE_OPTION
 from sim.cli.spoken import Spoken, spoken, words
 from sim.cli.spoken.values import FilePath
 

@@ -66,15 +66,7 @@ def scenario_of(options: ClientOptions) -> "Scenario":
     from sim.clients.table import following
     from sim.jobs.run_into import LOG
 
-    given = dict.fromkeys(Overrides._fields, None) | {
-        "machine": options.machine,
-        "offset": (),
-        "past_stop": False,
-        "kerf": False,
-        "may_stay_open": False,
-        "no_fit": False,
-    }
-    scenario = overridden(options.output / LOG, Overrides(**given))  # type: ignore[arg-type]  # by their names
+    scenario = overridden(options.output / LOG, Overrides(machine=options.machine))
     machine = scenario.machine.stepping_by("card")
     if options.machine is None:
         machine = following(machine)

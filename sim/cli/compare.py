@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from sim.cli.dialect_options import Offsets, OrRegister, offsets_of, with_dialect
-from sim.cli.scenario_options import Length
+from sim.cli.lengths import Length
 from sim.cli.spoken import Spoken, spoken, words
 from sim.cli.spoken.values import FilePath
 

@@ -7,7 +7,7 @@ import click
 
 from parser.findings.messages import Message
 from sim.cli.dialect_options import Dialect, Offsets, OrRegister, offsets_of
-from sim.cli.scenario_options import Length
+from sim.cli.lengths import Length
 from sim.cli.spoken import Spoken, spoken
 from sim.cli.spoken.values import FilePath, WholeNumber
 

@@ -8,7 +8,7 @@ import click
 
 from parser.findings.errors import ProgramError
 from parser.findings.messages import Message
-from sim.cli.overrides import Overrides, overridden
+from sim.cli.overrides import overridden, overrides_of
 from sim.cli.scenario_options import refused, scenario_options
 from sim.cli.spoken import Spoken, spoken, words
 from sim.cli.spoken.values import FilePath
@@ -86,7 +86,7 @@ def draw(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     from sim.show.terminal.printer import say
 
     files = _picture_files(output, names, svg)
-    scenario = overridden(path, Overrides(**options))
+    scenario = overridden(path, overrides_of(options))
     try:
         with _drawn_from(files, scenario) as (subject, findings):
             written = write_pictures(subject, files, size, theme, spoken())

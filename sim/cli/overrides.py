@@ -1,12 +1,15 @@
 """Options of ``drycut run`` that take the place of a scenario's own values."""
 
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from parser.findings.errors import SettingsError
 from parser.units import mm
 from sim.cli.dialect_options import offsets_of
+from sim.cli.lengths import taken_lengths
 from sim.cli.spoken import words
 from sim.setup.toml.reader import number
 from sim.show.terminal.printer import say
@@ -16,40 +19,45 @@ if TYPE_CHECKING:
     from sim.setup.machine.machine import TableEngine
     from sim.setup.part import DrawingTarget, Offset, SharpCorners
     from sim.setup.scenario import Scenario
-    from sim.setup.wire import Wire
 
 
 class Overrides(NamedTuple):
     """The options as given, lengths in µm; None where an option was left out.
 
-    `offset` has the offset of the controller, and registers that ISO programs name.
+    `lengths` has those that take the place of settings, by the names of their keys (`sim.setup.settable`); `offset` has
+    the offset of the controller, and registers that ISO programs name.
     """
 
-    dialect: str | None
-    unit: str | None
-    machine: str | None
-    thickness: float | None
-    wire_diameter: float | None
-    gap: float | None
-    wire_lag: float | None
-    interpolator: str | None
-    engine: "TableEngine | None"
-    offset: tuple["tuple[float, ...] | RegisterSet", ...]
-    side: str | None
-    past_stop: bool
-    kerf: bool
-    may_stay_open: bool
-    drawing: Path | None
-    layer: str | None
-    tolerance: float | None
-    no_fit: bool
-    sharp_corners: "SharpCorners | None"
+    dialect: str | None = None
+    unit: str | None = None
+    machine: str | None = None
+    lengths: Mapping[str, float] = MappingProxyType({})
+    interpolator: str | None = None
+    engine: "TableEngine | None" = None
+    offset: tuple["tuple[float, ...] | RegisterSet", ...] = ()
+    side: str | None = None
+    past_stop: bool = False
+    kerf: bool = False
+    may_stay_open: bool = False
+    drawing: Path | None = None
+    layer: str | None = None
+    tolerance: float | None = None
+    no_fit: bool = False
+    sharp_corners: "SharpCorners | None" = None
+
+
+def overrides_of(options: dict[str, Any]) -> Overrides:
+    """The options as click hands them over."""
+    from sim.setup.settable import SETTABLE
+
+    return Overrides(lengths=taken_lengths(SETTABLE.values(), options), **options)
 
 
 def overridden(path: Path, options: Overrides) -> "Scenario":
     """Scenario of the path with the options of the command line in place of its own values."""
     from sim.setup import scenario as scenarios
     from sim.setup.machine.machine import load_machine
+    from sim.setup.settable import SETTABLE, with_settings
 
     offsets = offsets_of(options.offset)
     scenario = read_with(scenarios.load_scenario(path), options.dialect, options.unit, offsets.registers)
@@ -57,13 +65,11 @@ def overridden(path: Path, options: Overrides) -> "Scenario":
         scenario = replace(scenario, machine=load_machine(options.machine), machine_by_default=False)
     if options.engine is not None:
         scenario = replace(scenario, machine=scenario.machine._replace(engine=options.engine))
-    thickness_mm = scenario.thickness_mm
-    if options.thickness is not None:
-        thickness_mm = scenarios.THICKNESS.of_option(mm(options.thickness))
+    given = {
+        key.name: key.of_option(options.lengths[key.name]) for key in SETTABLE.values() if key.name in options.lengths
+    }
     scenario = replace(
-        scenario,
-        thickness_mm=thickness_mm,
-        wire=_wire(scenario.wire, options),
+        with_settings(scenario, given),
         offset=_offset(scenario.offset, offsets.plain, options.side),
         past_stop=scenario.past_stop or options.past_stop,
         kerf=scenario.kerf or options.kerf,
@@ -85,19 +91,6 @@ def read_with(
         unit=unit or scenario.unit,
         registers=merged([scenario.registers, registers]),
     )
-
-
-def _wire(wire: "Wire", options: Overrides) -> "Wire":
-    """The wire with the options in place of its own values."""
-    from sim.setup.wire import DIAMETER, LAG, SPARK_GAP
-
-    if options.wire_diameter is not None:
-        wire = replace(wire, diameter_um=DIAMETER.of_option(options.wire_diameter))
-    if options.gap is not None:
-        wire = replace(wire, spark_gap_um=SPARK_GAP.of_option(options.gap))
-    if options.wire_lag is not None:
-        wire = replace(wire, lag=LAG.of_option(options.wire_lag))
-    return wire
 
 
 def _offset(offset: "Offset | None", by_um: tuple[float, ...] | None, side_word: str | None) -> "Offset | None":

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import click
 
 from parser.findings.messages import Message
-from sim.cli.program_options import Options, making_of, program_options, refuse_own_files, writing_of
+from sim.cli.program_options import Options, making_of, options_of, program_options, refuse_own_files, writing_of
 from sim.cli.spoken import Spoken, spoken
 from sim.cli.spoken.values import FilePath
 
@@ -77,7 +77,7 @@ def program(  # noqa: PLR0913 - click hands over each option by its name
     from sim.make.cam.maker import MadeProgram
     from sim.show.terminal.printer import write
 
-    request = _program_request(path, output, Options(**options), is_written=not preview)
+    request = _program_request(path, output, options_of(options), is_written=not preview)
     _refuse_pictures(picture, request)
     tongue: Tongue = spoken()
     done = _made_program(request)
@@ -134,21 +134,8 @@ def _scenario(path: Path, output: Path | None, options: Options) -> "Scenario":
     """The scenario of a folder, else one of the defaults, with the options in place of its own values."""
     from sim.cli.overrides import Overrides, overridden
 
-    nothing = dict.fromkeys(Overrides._fields, None)
-    given = {
-        "dialect": options.dialect,
-        "unit": options.unit,
-        "machine": options.machine,
-        "thickness": options.thickness,
-        "wire_diameter": options.wire_diameter,
-        "gap": options.spark_gap,
-        "offset": (),
-        "past_stop": False,
-        "kerf": False,
-        "no_fit": False,
-    }
-    where = path if path.is_dir() else (output or path.with_suffix(".3b"))
-    return overridden(where, Overrides(**{**nothing, **given}))  # type: ignore[arg-type]  # by their names
+    given = Overrides(dialect=options.dialect, unit=options.unit, machine=options.machine, lengths=options.lengths)
+    return overridden(path if path.is_dir() else (output or path.with_suffix(".3b")), given)
 
 
 def _language(output: Path | None) -> "Language":

@@ -1,16 +1,19 @@
 """Options of ``drycut program``: what is asked of the maker of a program, in place of a scenario's own values."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeVar
 
 import click
 
 from parser.findings.messages import Message
 from sim.cli.dialect_options import READ_WITH
-from sim.cli.scenario_options import Length
+from sim.cli.lengths import Length, length_options, taken_lengths
 from sim.cli.spoken.values import WholeNumber
 from sim.setup.making import CORNERS, DIRECTION_WISHES, ENCODINGS, FORMS, LEAD_INS, SIDE_WISHES
+from sim.setup.wire import DIAMETER, SPARK_GAP
+from sim.setup.work import THICKNESS
 
 if TYPE_CHECKING:
     from parser.toolpath import Point
@@ -94,6 +97,8 @@ def _is_rank(text: str | None) -> bool:
     return text is None or (text.removeprefix("-").isdecimal() and text.isascii() and abs(int(text[:6])) <= 1000)
 
 
+OF_PROOF: Final = (THICKNESS, DIAMETER, replace(SPARK_GAP, option="--spark-gap"))
+"""Settings of the run that proves a program; ``--gap`` is the gap in a drawing here."""
 OPTIONS = (
     click.option("--tolerance", type=Length()),
     click.option("--part-tolerance", type=Length()),
@@ -127,9 +132,7 @@ OPTIONS = (
     click.option("--crlf", is_flag=True),
     click.option("--encoding", type=click.Choice(ENCODINGS)),
     click.option("--machine", metavar="NAME|FILE"),
-    click.option("--thickness", type=Length()),
-    click.option("--wire-diameter", type=Length()),
-    click.option("--spark-gap", type=Length()),
+    *length_options(OF_PROOF),
 )
 
 
@@ -173,9 +176,16 @@ class Options(NamedTuple):
     crlf: bool
     encoding: Any
     machine: str | None
-    thickness: float | None
-    wire_diameter: float | None
-    spark_gap: float | None
+    lengths: Mapping[str, float]
+
+
+def options_of(options: dict[str, Any]) -> Options:
+    """The options as click hands them over. SettingsError for a length out of its bounds."""
+    lengths = taken_lengths(OF_PROOF, options)
+    for key in OF_PROOF:
+        if key.name in lengths:
+            key.of_option(lengths[key.name])
+    return Options(lengths=lengths, **options)
 
 
 def making_of(own: "Making", options: Options) -> "Making":

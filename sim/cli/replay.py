@@ -9,7 +9,7 @@ import click
 
 from parser.findings.errors import ProgramError
 from parser.findings.messages import Message
-from sim.cli.overrides import Overrides, overridden
+from sim.cli.overrides import overridden, overrides_of
 from sim.cli.scenario_options import refused, scenario_options
 from sim.cli.spoken import Spoken, spoken, words
 from sim.cli.spoken.values import DecimalNumber, FilePath, WholeNumber
@@ -103,7 +103,7 @@ def replay(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     look, is_page = Look(*size, theme, spoken()), output.suffix.lower() == PAGE
     if not is_page:
         _refuse(output, seconds, fps, look)
-    scenario = overridden(path, Overrides(**options))
+    scenario = overridden(path, overrides_of(options))
     try:
         program = moving(program_read(scenario, source_of(scenario)))
         stages = [*stages_of(scenario), "pages" if is_page else "film"]

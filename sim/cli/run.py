@@ -12,7 +12,7 @@ import click
 
 from parser.findings.errors import ProgramError
 from parser.findings.messages import Message
-from sim.cli.overrides import Overrides, overridden
+from sim.cli.overrides import Overrides, overridden, overrides_of
 from sim.cli.scenario_options import refused, scenario_options
 from sim.cli.spoken import Spoken, spoken, words
 from sim.cli.spoken.values import FilePath
@@ -104,7 +104,7 @@ def run(  # noqa: PLR0913 - click hands over each option by its name
     drycut run part.3b --kerf --drawing part.dxf --tolerance 5um
     drycut run programs/ 'jigs/*.4b' -o out/ --jobs 4
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
-    overrides, spread, files = Overrides(**options), Spread(jobs, scheduler), _Files(output, card_log, trace)
+    overrides, spread, files = overrides_of(options), Spread(jobs, scheduler), _Files(output, card_log, trace)
     if is_shop(names):
         _refuse_for_many(files)
         code = run_shop(names, output, spread, overrides, as_json=as_json)

@@ -6,10 +6,12 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from parser.findings.errors import ProgramError, SettingsError
+from parser.findings.errors import ProgramError
 from sim.cli.dialect_options import READ_WITH, OrRegister
+from sim.cli.lengths import Length, Lengths, length_options
 from sim.cli.spoken import spoken
 from sim.cli.spoken.values import FilePath
+from sim.setup.settable import SETTABLE
 from sim.show.terminal.colours import painted
 from sim.show.terminal.finding import finding_lines
 from sim.show.terminal.printer import say
@@ -23,35 +25,6 @@ if TYPE_CHECKING:
 Command = TypeVar("Command", bound=Callable[..., Any])
 
 
-class Length(click.ParamType):  # type: ignore[type-arg]  # generic in newer clicks alone
-    """A length with its unit, in µm."""
-
-    name = "length"
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
-        """The length in µm."""
-        from sim.base.units import parse_length
-
-        return value if isinstance(value, float) else parse_length(value)
-
-
-class Lengths(click.ParamType):  # type: ignore[type-arg]  # generic in newer clicks alone
-    """Lengths with their units, with commas between them, in µm."""
-
-    name = "length,…"
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[float, ...]:
-        """The lengths in µm. SettingsError for what is none, and where one is missing beside a comma."""
-        from sim.base.units import parse_length
-
-        if isinstance(value, tuple):
-            return value
-        lengths = value.split(",")
-        if len(lengths) > 1 and not all(length.strip() for length in lengths):
-            raise SettingsError("lacks-a-length", found=value)
-        return tuple(parse_length(length) for length in lengths)
-
-
 ENGINE_OPTION = click.option(
     "--engine",
     type=click.Choice(["compiled", "pymunk"]),
@@ -60,10 +33,7 @@ ENGINE_OPTION = click.option(
 _OPTIONS = (
     *READ_WITH,
     click.option("--machine", metavar="NAME|FILE"),
-    click.option("--thickness", type=Length()),
-    click.option("--wire-diameter", type=Length()),
-    click.option("--gap", type=Length()),
-    click.option("--wire-lag", type=Length()),
+    *length_options(SETTABLE.values()),
     click.option(
         "--interpolator",
         type=click.Choice(["point-by-point", "card"]),

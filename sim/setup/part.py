@@ -21,7 +21,6 @@ PASSES = Bound(1, 20)
 FEED_MM_MIN = Bound(0.001, 1e4)
 TOLERANCE_UM = Bound(0.001, 1e6)
 GAP_UM = Bound(0.001, 1e4)
-DENSITY_G_CM3 = Bound(0.01, 30.0)
 
 SIDES: Mapping[str, Side] = {side.name.lower(): side for side in Side}
 SharpCorners = Literal["tell", "fail"]
@@ -29,8 +28,6 @@ SharpCorners = Literal["tell", "fail"]
 SHARP_CORNERS: tuple[str, ...] = get_args(SharpCorners)
 DEFAULT_TOLERANCE_UM = 5.0
 """What a first cut is usually held to (assumed)."""
-DEFAULT_DENSITY_G_CM3 = 7.85
-"""Steel: C45 and Cr12 lie within 0.1 of it (any table of materials)."""
 
 
 Direction = Literal["same", "back"]

@@ -17,10 +17,8 @@ from sim.setup.expectations import EXPECT, Expectation, expect_section, read_exp
 from sim.setup.machine.controller_model import INTERPOLATOR
 from sim.setup.machine.machine import Machine, load_machine
 from sim.setup.making import LayerWish, ToMake
-from sim.setup.obstacles import CLAMPS, Clamp, Outline, OutlineMm, read_clamps
+from sim.setup.obstacles import CLAMPS, Clamp, Outline, read_clamps
 from sim.setup.part import (
-    DEFAULT_DENSITY_G_CM3,
-    DENSITY_G_CM3,
     DRAWING,
     OFFSET,
     PASS,
@@ -36,13 +34,12 @@ from sim.setup.toml.keys import Key, Section, WrittenSection
 from sim.setup.toml.kinds import FileName, Name, Number, TablePlace, Text, Truth
 from sim.setup.toml.reader import Bound, load_toml, number, section
 from sim.setup.wire import DEFAULT_WIRE, WIRE, Wire, read_wire
+from sim.setup.work import DEFAULT_DENSITY_G_CM3, DEFAULT_THICKNESS_MM, DENSITY_G_CM3, THICKNESS_MM, WORK
 
 MACHINE_FILE = "machine.toml"
 """Name of the machine file beside a scenario file that is written."""
-THICKNESS_MM = Bound(0.01, 2000.0)
 TRACE_SPACING_UM = Bound(0.1, 1e4)
 _BOUNDS = {"thickness_mm": THICKNESS_MM, "trace_spacing_um": TRACE_SPACING_UM, "density_g_cm3": DENSITY_G_CM3}
-DEFAULT_THICKNESS_MM = 40.0
 DEFAULT_MACHINE = "dk7740"
 DEFAULT_TRACE_SPACING_UM = 5.0
 """On an arc of 100 µm radius the chord of it is 0.03 µm off."""
@@ -185,15 +182,6 @@ TOP = Section(
         Key("kerf", Truth(), default=False),
     ),
     form="top",
-)
-THICKNESS = Key("thickness_mm", Number(THICKNESS_MM, "mm"), default=DEFAULT_THICKNESS_MM, option="--thickness")
-WORK = Section(
-    "work",
-    (
-        THICKNESS,
-        Key("density_g_cm3", Number(DENSITY_G_CM3, "g/cm³"), default=DEFAULT_DENSITY_G_CM3),
-        Key("outline_mm", OutlineMm(), "work_um", default=None),
-    ),
 )
 SECTIONS = (TOP, WIRE, WORK, OFFSET, PASS, DRAWING, PROGRAM, LAYER, CLAMPS, QUIZ, EXPECT)
 """Sections of a scenario file."""

@@ -123,6 +123,7 @@ DIAMETER = Key(
     "diameter_um",
     mm(DEFAULT_WIRE.diameter_um),
     option="--wire-diameter",
+    form="wire_mm",
 )
 SPARK_GAP = Key(
     "spark_gap_mm", Number(SPARK_GAP_MM, "mm", MM_AS_UM), "spark_gap_um", mm(DEFAULT_WIRE.spark_gap_um), option="--gap"
@@ -130,6 +131,7 @@ SPARK_GAP = Key(
 LAG = Key(
     "lag_um",
     Number(WIRE_LAG_UM, "µm"),
+    "lag",
     default=None,
     get=lambda wire: None if isinstance(wire.lag, WireForces) else wire.lag,
     option="--wire-lag",
@@ -149,7 +151,7 @@ WIRE = Section(
 def read_wire(table: Mapping[str, Any], where: str) -> Wire:
     """Wire of a ``[wire]`` table. SettingsError names the file and the key."""
     value = WIRE.read(table, where)
-    lag_um = value.pop(LAG.name)
+    lag_um = value.pop(LAG.path)
     forces = {key.name: value.pop(key.name) for key in _FORCES}
     return Wire(**value, lag=_lag(lag_um, {name: force for name, force in forces.items() if force is not None}, where))
 

@@ -2,16 +2,21 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, Literal, Self
+from typing import TYPE_CHECKING, Any, Final, Literal, Self
 
 from parser.dialect.choices import Choices, Marks, Registers, merged
 from parser.findings.codes import Severity
 from parser.units import from_mm
 from sim.check.path_checks import Demands
-from sim.setup.wire import DEFAULT_WIRE
+from sim.setup.toml.keys import Key
+from sim.setup.wire import DEFAULT_WIRE, DIAMETER, SPARK_GAP
 
 if TYPE_CHECKING:
     from sim.setup.machine.machine import Machine
+
+
+WIRE_LENGTHS: Final[Mapping[str, Key]] = {"wire_diameter_um": DIAMETER, "spark_gap_um": SPARK_GAP}
+"""Keys of the wire that a check is held against, by the fields of `CheckSettings` that have their values."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,7 +84,7 @@ class CheckSettings:
 
     @property
     def _offset_um(self) -> float | None:
-        given = {"diameter_um": self.wire_diameter_um, "spark_gap_um": self.spark_gap_um}
+        given = {key.path: getattr(self, field) for field, key in WIRE_LENGTHS.items()}
         known = {name: length for name, length in given.items() if length is not None}
         return replace(DEFAULT_WIRE, **known).reach_um if known else None
 

@@ -17,10 +17,9 @@ from parser.dialect.choices import Marks
 from parser.findings.codes import CODES, Severity
 from parser.findings.errors import SettingsError
 from parser.program import block_words, own_marks
-from sim.check.settings.model import CheckSettings
+from sim.check.settings.model import WIRE_LENGTHS, CheckSettings
 from sim.setup.dialect import READ_WITH
 from sim.setup.toml.reader import load_toml, pair, refuse_unknown, section, text, truth
-from sim.setup.wire import DIAMETER, SPARK_GAP
 
 if TYPE_CHECKING:
     from sim.setup.machine.machine import Machine
@@ -79,7 +78,7 @@ _KEYS = (
     *(key.name for key in READ_WITH),
     *("end_marks", "pause_marks", "wire", "per_file_ignores"),
 )
-_WIRE = {key.name: key for key in (DIAMETER, SPARK_GAP)}
+_WIRE = {key.name: key for key in WIRE_LENGTHS.values()}
 
 
 class IgnoredOf(NamedTuple):
@@ -140,17 +139,18 @@ def read_settings(content: Mapping[str, Any], file: Path, name: str) -> Settings
     truth(content, "root", name)
     wire = section(content, "wire", name)
     refuse_unknown(wire, _WIRE, f"{name}: [wire]")
-    lengths = {key: _WIRE[key].read(wire, f"{name}: [wire]") for key in wire}
+    lengths = {
+        field: _WIRE[key.name].read(wire, f"{name}: [wire]") for field, key in WIRE_LENGTHS.items() if key.name in wire
+    }
     settings = CheckSettings(
         machine=_machine(content, file, name),
         start_mm=pair(content, "start_mm", name),
-        wire_diameter_um=lengths.get("diameter_mm"),
-        spark_gap_um=lengths.get("spark_gap_mm"),
         may_stay_open=truth(content, "open", name),
         select=code_list(content.get("select", []), f"{name}: select"),
         ignore=code_list(content.get("ignore", []), f"{name}: ignore"),
         fail_on=severity(content.get("fail_on", Severity.ERROR), f"{name}: fail_on"),
         marks=_marks(content, name),
+        **lengths,
         **{key.path: key.read(content, name) for key in READ_WITH},
         file=name,
     )

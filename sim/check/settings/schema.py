@@ -3,11 +3,11 @@
 from typing import Any, Final
 
 from parser.findings.codes import Severity
+from sim.check.settings.model import WIRE_LENGTHS
 from sim.setup.dialect import READ_WITH
 from sim.setup.file_schemas import DRAFT
 from sim.setup.toml.kinds import pair_schema
 from sim.setup.toml.reader import PLACE_MM
-from sim.setup.wire import DIAMETER, SPARK_GAP
 
 _TEXT: Final = {"type": "string", "minLength": 1}
 _CODES: Final = {"type": "array", "items": {"type": "string"}}
@@ -16,7 +16,7 @@ _MARKS: Final = {"type": "array", "items": {"type": "string", "pattern": "^[A-Za
 
 def settings_schema() -> dict[str, Any]:
     """JSON schema of ``drycut.toml``, which is that of ``[tool.drycut]`` in ``pyproject.toml``, too."""
-    wire = _table({key.name: key.schema for key in (DIAMETER, SPARK_GAP)})
+    wire = _table({key.name: key.schema for key in WIRE_LENGTHS.values()})
     keys: dict[str, tuple[str, dict[str, Any]]] = {
         "root": ("the search for settings ends here", {"type": "boolean"}),
         "machine": ("name of a machine, or its .toml file", {"type": "string"}),

@@ -54,12 +54,12 @@ def check(  # noqa: PLR0913 - click hands over each option by its name
     drycut check part.3b --fix
     drycut check die.iso --dialect robofil --offset D0=0.11mm
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
-    from sim.cli.check.jobs import CheckOptions
+    from sim.cli.check.jobs import check_options_of
     from sim.cli.check.outputs import outputs_of
     from sim.show.findings.options import Options
 
     _refuse_contradictions(files, formats, values, {"--fix": fix, "--diff": diff, "--watch": watch})
-    options, style = CheckOptions(**values), Options(spoken(), quiet=quiet, statistics=statistics)
+    options, style = check_options_of(values), Options(spoken(), quiet=quiet, statistics=statistics)
     outputs = outputs_of(formats, output_file, options.write_baseline)
     work = _Work(files, options, outputs, style, Spread(jobs, scheduler))
     if watch:

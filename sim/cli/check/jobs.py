@@ -1,6 +1,6 @@
 """The jobs of a check: its files, each with the settings that count for it."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -11,9 +11,10 @@ from parser.files.reading import read_stdin
 from parser.findings.messages import Message
 from sim.check.file_check import Job
 from sim.check.files import find_files
+from sim.check.settings.model import WIRE_LENGTHS
 from sim.check.settings.read import NO_SETTINGS, PathPattern, SettingsFile, code_list, pattern_list, severity
 from sim.check.settings.search import SettingsSearch
-from sim.setup.wire import DIAMETER, SPARK_GAP
+from sim.cli.lengths import taken_lengths
 
 if TYPE_CHECKING:
     from sim.check.silence.baseline import Baseline
@@ -33,8 +34,7 @@ class CheckOptions(NamedTuple):
     ignore: str | None
     fail_on: str | None
     machine: str | None
-    wire_diameter: float | None
-    gap: float | None
+    lengths: Mapping[str, float]
     may_stay_open: bool
     dialect: str | None
     unit: str | None
@@ -44,6 +44,11 @@ class CheckOptions(NamedTuple):
     no_config: bool
     baseline: Path | None
     write_baseline: Path | None
+
+
+def check_options_of(values: dict[str, Any]) -> CheckOptions:
+    """The options as click hands them over."""
+    return CheckOptions(lengths=taken_lengths(WIRE_LENGTHS.values(), values), **values)
 
 
 def jobs_of(names: Sequence[str], options: CheckOptions) -> list[Job]:
@@ -113,6 +118,7 @@ class _Making:
 def _settings(options: CheckOptions) -> dict[str, Any]:
     """Settings that the command line gives, in place of those of the files."""
     given: dict[str, Any] = {}
+    lengths = options.lengths
     if options.select is not None:
         given["select"] = code_list(options.select.split(","), "--select")
     if options.ignore is not None:
@@ -123,10 +129,7 @@ def _settings(options: CheckOptions) -> dict[str, Any]:
         from sim.setup.machine.machine import load_machine
 
         given["machine"] = load_machine(options.machine)
-    if options.wire_diameter is not None:
-        given["wire_diameter_um"] = DIAMETER.of_option(options.wire_diameter)
-    if options.gap is not None:
-        given["spark_gap_um"] = SPARK_GAP.of_option(options.gap)
+    given |= {field: key.of_option(lengths[key.name]) for field, key in WIRE_LENGTHS.items() if key.name in lengths}
     if options.may_stay_open:
         given["may_stay_open"] = True
     read_with = {"dialect": options.dialect, "unit": options.unit, "registers": merged([options.offset])}

@@ -9,8 +9,9 @@ import click
 from parser.findings.messages import Message
 from sim.cli.check.outputs import Output
 from sim.cli.dialect_options import READ_WITH, RegisterValue
-from sim.cli.scenario_options import Length
+from sim.cli.lengths import length_options
 from sim.cli.spoken.values import FilePath
+from sim.setup.wire import DIAMETER, SPARK_GAP
 from sim.show.findings import FORMATS
 
 Command = TypeVar("Command", bound=Callable[..., Any])
@@ -68,8 +69,7 @@ _MENDS = (
 _WATCH = (click.option("--watch", is_flag=True),)
 _DEMANDS = (
     click.option("--machine", metavar="NAME|FILE"),
-    click.option("--wire-diameter", type=Length()),
-    click.option("--gap", type=Length()),
+    *length_options((DIAMETER, SPARK_GAP)),
     click.option("--open", "may_stay_open", is_flag=True),
 )
 _ISO = (

@@ -18,7 +18,8 @@ from sim.base.rounded import rounded
 from sim.check.file_check import as_typed
 from sim.check.result import CheckResult
 from sim.setup.machine.machine import load_machine
-from sim.setup.scenario import DEFAULT_MACHINE, DEFAULT_THICKNESS_MM
+from sim.setup.scenario import DEFAULT_MACHINE
+from sim.setup.work import DEFAULT_THICKNESS_MM
 from sim.show.replay.curve_columns import exact_columns
 from sim.show.texts import bilingual
 from sim.show.texts.phrases import lasting

@@ -11,6 +11,7 @@ from typing import Any, Final
 
 from parser.text.encoding import printable
 from sim.serve.page.child import Child, begun
+from sim.setup.settable import FIELDS
 
 _UNSAFE: Final = re.compile(r"[^\w.-]")
 _LONGEST: Final = 60
@@ -21,9 +22,9 @@ def safe_name(name: str) -> str:
     return _UNSAFE.sub("_", Path(name).name)[-_LONGEST:].lstrip(".-") or "program"
 
 
-LOOK_KEYS: Final = ("name", "text", "machine", "thickness_mm", "wire_mm", "offset_mm", "side")
+LOOK_KEYS: Final = ("name", "text", "machine", *FIELDS, "offset_mm", "side")
 """What the page says where a drawing is to be laid beneath its program."""
-MAKE_KEYS: Final = ("language", "machine", "thickness_mm", "wire_mm", "offset_mm", "tab_mm")
+MAKE_KEYS: Final = ("language", "machine", *FIELDS, "offset_mm", "tab_mm")
 """What it says where a program is to be made; empty texts leave what is usual."""
 _MOST: Final = 20
 """Drawings that are kept, the last ones."""

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from pathlib import Path
+from typing import Final
 
 from parser.findings.errors import SettingsError
 from parser.findings.messages import Message
@@ -10,9 +11,14 @@ from parser.units import from_mm
 from sim.serve.page.child import PageRequest
 from sim.setup.machine.machine import load_machine, machine_names
 from sim.setup.part import OFFSET_MM, PASSES, SIDES, DrawingTarget, Offset, OffsetPass
-from sim.setup.scenario import THICKNESS_MM, Scenario, load_scenario
+from sim.setup.scenario import Scenario, load_scenario
+from sim.setup.settable import FIELDS, with_settings
+from sim.setup.toml.keys import Key
+from sim.setup.toml.kinds import Number
 from sim.setup.toml.reader import Bound, number
-from sim.setup.wire import WIRE_DIAMETER_MM
+
+_NAMES: Final = {"thickness_mm": Message("name-thickness"), "wire_mm": Message("name-wire")}
+"""What the fields are called where something is wrong with them."""
 
 
 def scenario_of(request: PageRequest, file: Path) -> Scenario:
@@ -25,16 +31,16 @@ def scenario_of(request: PageRequest, file: Path) -> Scenario:
         if request["machine"] not in machine_names():  # a page names no file of the disk
             raise SettingsError("machine-not-shipped-on-page", name=request["machine"][:40])
         scenario = replace(scenario, machine=load_machine(request["machine"]), machine_by_default=False)
-    if request["thickness_mm"]:
-        scenario = replace(
-            scenario, thickness_mm=number_of(request["thickness_mm"], THICKNESS_MM, Message("name-thickness"))
-        )
-    if request["wire_mm"]:
-        wire_um = from_mm(number_of(request["wire_mm"], WIRE_DIAMETER_MM, Message("name-wire")))
-        scenario = replace(scenario, wire=replace(scenario.wire, diameter_um=wire_um))
+    given = {key.name: _setting(request[form], key) for form, key in FIELDS.items() if request[form]}
+    scenario = with_settings(scenario, given)
     if request["drawing_file"]:
         scenario = replace(scenario, drawing=DrawingTarget(Path(request["drawing_file"])))
     return replace(scenario, offset=_offset(request), kerf=True)
+
+
+def _setting(text: str, key: Key) -> float:
+    assert isinstance(key.kind, Number)  # noqa: S101 - no other kind has a field
+    return key.kind.inside(number_of(text, key.kind.bound, _NAMES[key.form]))
 
 
 def offsets_um(request: PageRequest, bound: Bound) -> tuple[float, ...]:

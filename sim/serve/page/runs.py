@@ -14,8 +14,9 @@ from typing import Any, Final
 from parser.text.encoding import printable
 from sim.serve.page.child import Child, begun
 from sim.serve.page.drawings import safe_name
+from sim.setup.settable import FIELDS
 
-KEYS: Final = ("machine", "thickness_mm", "wire_mm", "offset_mm", "side")
+KEYS: Final = ("machine", *FIELDS, "offset_mm", "side")
 """What the page may say of a run, as texts; empty ones leave what is usual."""
 MORE_KEYS: Final = ("job", "form", "seconds", "set", "language")
 """What it may say of a film, of pictures, or of fault drills."""

@@ -13,7 +13,8 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Final, Literal, NamedTuple
 
-from sim.setup.toml.kinds import Number, ValueKind
+from parser.units import mm
+from sim.setup.toml.kinds import MM_AS_UM, Number, ValueKind
 from sim.setup.toml.reader import number, refuse_unknown, section
 
 REQUIRED: Final = object()
@@ -39,6 +40,8 @@ class Key:
         How it is found in what the section fills, where that is no attribute; None where there is nothing to write.
     option
         The option that takes its place on the command line, such as ``--gap``; empty where there is none.
+    form
+        The field that takes its place on the page of ``drycut open``; empty where there is none.
     """
 
     name: str
@@ -47,6 +50,7 @@ class Key:
     default: Any = REQUIRED
     get: Callable[[Any], Any] | None = None
     option: str = ""
+    form: str = ""
 
     @property
     def is_required(self) -> bool:
@@ -59,11 +63,12 @@ class Key:
             return self.kind.inside(self.kind.checked(table, self.name, where))
         return None if self.default is None else self.kind.inside(self.default)
 
-    def of_option(self, value: float) -> float:
-        """A number inside that `option` gives. SettingsError, which names the option, where it is out of its bounds."""
-        assert isinstance(self.kind, Number)  # noqa: S101 - no other kind is given by a number
-        number(self.kind.written(value), self.kind.bound, f"{self.option} in {self.kind.unit}")
-        return value
+    def of_option(self, length_um: float) -> float:
+        """A length that `option` gives, as it is inside. SettingsError, which names the option, where it cannot be."""
+        assert isinstance(self.kind, Number)  # noqa: S101 - no other kind is given by a length
+        written = mm(length_um) if self.kind.unit == "mm" else length_um
+        number(written, self.kind.bound, f"{self.option} in {self.kind.unit}")
+        return length_um if self.kind.scale is MM_AS_UM else written
 
     def written(self, owner: object) -> Any:
         """Value in the file that makes this owner; None where it says nothing, as of a limit that there is not."""

@@ -7,7 +7,8 @@ from typing import Final
 from parser.units import mm
 from sim.setup.machine.machine import machine_names
 from sim.setup.making import LANGUAGES
-from sim.setup.scenario import DEFAULT_MACHINE, DEFAULT_THICKNESS_MM
+from sim.setup.scenario import DEFAULT_MACHINE
+from sim.setup.settable import FIELDS
 from sim.setup.wire import DEFAULT_WIRE
 from sim.show.html.environment import rendered
 from sim.show.texts.texts import texts
@@ -27,8 +28,7 @@ def open_page() -> tuple[str, str]:
         machines=machine_names(),
         languages=LANGUAGES,
         default_machine=DEFAULT_MACHINE,
-        thickness=f"{DEFAULT_THICKNESS_MM:g}",
-        wire=f"{mm(DEFAULT_WIRE.diameter_um):g}",
+        fields=FIELDS,
         reach=f"{mm(DEFAULT_WIRE.reach_um):g}",
         pictures={
             name.removeprefix(_PICTURE): said._asdict()

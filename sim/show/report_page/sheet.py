@@ -11,7 +11,7 @@ from sim.run.dryrun import DryRun
 from sim.run.recording import NO_PIECES
 from sim.run.report.model import ReportDocument
 from sim.run.report.run_model import ThreadPointEntry
-from sim.setup.part import DEFAULT_DENSITY_G_CM3
+from sim.setup.work import DEFAULT_DENSITY_G_CM3
 from sim.show.report_page.findings import ShownFinding, gravest_findings
 from sim.show.report_page.tables import Column, ReportTable, called, column_of, counted, millimetres, reached, timed
 from sim.show.texts import bilingual

@@ -6,35 +6,15 @@ import pytest
 
 from controller.offset.sections import Side
 from parser.findings.errors import SettingsError
+from sim.cli.lengths import Lengths
 from sim.cli.overrides import Overrides, overridden
-from sim.cli.scenario_options import Lengths
 from sim.setup.part import DrawingTarget, Offset, OffsetPass
 from sim.setup.scenario import MACHINE_FILE, load_scenario, scenario_sections
 from sim.setup.toml.keys import toml_text
 
 LED = "[offset]\nside = 'left'\n[[pass]]\nby_mm = 0.18\n"
 """The first pass of some."""
-NONE = Overrides(
-    dialect=None,
-    unit=None,
-    machine=None,
-    thickness=None,
-    wire_diameter=None,
-    gap=None,
-    wire_lag=None,
-    interpolator=None,
-    engine=None,
-    offset=(),
-    side=None,
-    kerf=False,
-    may_stay_open=False,
-    drawing=None,
-    layer=None,
-    tolerance=None,
-    no_fit=False,
-    past_stop=False,
-    sharp_corners=None,
-)
+NONE = Overrides()
 
 
 def scenario_of(tmp_path: Path, text: str) -> Path:

@@ -1,0 +1,44 @@
+"""Settings of a scenario that options of the command line and fields of a page give in place of those of its file."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, Final, TypeVar
+
+from sim.setup.toml.keys import Key
+from sim.setup.wire import WIRE
+from sim.setup.work import WORK
+
+Whole = TypeVar("Whole", bound="DataclassInstance")
+if TYPE_CHECKING:
+    from _typeshed import DataclassInstance
+
+    from sim.setup.scenario import Scenario
+
+
+def _settable() -> Iterator[tuple[str, Key]]:
+    for section in (WORK, WIRE):
+        for key in section.keys:
+            if key.option:
+                yield ".".join(filter(None, (section.fills, key.path))), key
+
+
+SETTABLE: Final = dict(_settable())
+"""The keys that have an option, by where a scenario keeps their values; some have a field of the page, too."""
+FIELDS: Final = {key.form: key for key in SETTABLE.values() if key.form}
+"""Those that have a field of the page, by its name."""
+
+
+def with_settings(scenario: "Scenario", values: Mapping[str, Any]) -> "Scenario":
+    """The scenario with values, as they are inside, in place of its own, by the names of their keys."""
+    return _with(scenario, {path: values[key.name] for path, key in SETTABLE.items() if key.name in values})
+
+
+def _with(whole: Whole, values: Mapping[str, Any]) -> Whole:
+    """A dataclass with values in place of its own, by their paths with dots; all at once, as they may depend."""
+    parts: dict[str, dict[str, Any]] = {}
+    for path, value in values.items():
+        name, _, rest = path.partition(".")
+        parts.setdefault(name, {})[rest] = value
+    return replace(
+        whole, **{name: of[""] if "" in of else _with(getattr(whole, name), of) for name, of in parts.items()}
+    )
