@@ -79,6 +79,12 @@ def clock(seconds: float) -> str:
     return f"{hours} h {minutes} min"
 
 
+def hours_text(seconds: float) -> str:
+    """Hours, minutes and seconds in a column, such as ``0:19:33``."""
+    minutes, rest = divmod(round(seconds), 60)
+    return f"{minutes // 60}:{minutes % 60:02d}:{rest:02d}"
+
+
 def in_figures(value: float) -> str:
     """A value above 0 for people: to three figures, and from 100 on to a tenth."""
     rounded = round(value, 1 if value >= 100.0 else 2 - math.floor(math.log10(value)))

@@ -11,6 +11,7 @@ import numpy as np
 
 from parser.findings.catalogue import LANGUAGES, Bilingual, page
 from parser.geometry.curves import Curves, Floats
+from sim.base.units import hours_text
 from sim.show.draw.flatten import bounds_um, cut_runs, flatten
 from sim.show.draw.path_data import path_data
 from sim.show.draw.simplify import simplify
@@ -78,7 +79,13 @@ def index_page(index: Mapping[str, Any], additions: Sequence[BesideTheIndex]) ->
 
 
 def _program(program: Mapping[str, Any], more: BesideTheIndex) -> dict[str, Any]:
-    return {**program, "picture": more.picture, "message": more.message._asdict() if more.message.en else None}
+    time_s = program["time_s"]
+    return {
+        **program,
+        "time": "" if time_s is None else hours_text(time_s),
+        "picture": more.picture,
+        "message": more.message._asdict() if more.message.en else None,
+    }
 
 
 def _title(code: str) -> Bilingual:

@@ -8,6 +8,7 @@ from parser.drawing.model import LeftOut
 from parser.findings.catalogue import LANGUAGES, Bilingual, Language, Remark, remark_text
 from parser.text.encoding import printable
 from parser.units import mm
+from sim.base.units import hours_text
 from sim.make.cam.document import FigureSum, figure_sums
 from sim.make.cam.maker import MadeProgram, NotMade
 from sim.make.cam.model import CutPlan, FigureCut
@@ -101,7 +102,7 @@ def _row(cut: FigureCut, of: FigureSum, words: Words) -> tuple[str, ...]:
         words("program.wire-inside" if cut.figure.runs_inside else "program.wire-outside"),
         f"{of.blocks:,}",
         f"{mm(of.length_um):,.3f}",
-        _hours(of.time_s) if of.time_s else "–",
+        hours_text(of.time_s) if of.time_s else "–",
         place_text(cut.thread.place_um),
         _passes(cut),
     )
@@ -109,12 +110,6 @@ def _row(cut: FigureCut, of: FigureSum, words: Words) -> tuple[str, ...]:
 
 def _passes(cut: FigureCut) -> str:
     return ", ".join(f"{mm(pass_.by_um):g}" for pass_ in cut.passes)
-
-
-def _hours(time_s: float) -> str:
-    """Hours, minutes and seconds, such as 0:19:33."""
-    minutes, seconds = divmod(round(time_s), 60)
-    return f"{minutes // 60}:{minutes % 60:02d}:{seconds:02d}"
 
 
 def _total(plan: CutPlan, sums: tuple[FigureSum, ...], words: Words, width: int) -> Iterator[str]:

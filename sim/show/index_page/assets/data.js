@@ -22,6 +22,7 @@ import { element } from "../../html/assets/elements.js";
  * @property {Said | null} message why there is no report
  * @property {Found[]} findings the worst first
  * @property {number | null} time_s
+ * @property {string} time in hours, minutes and seconds; empty where nothing ran
  * @property {number | null} max_um
  * @property {string | null} folder of its files, beside the page
  * @property {boolean} from_cache

@@ -23,7 +23,7 @@ export function rowOf(program, index) {
     make("th", { scope: "row" }, ...named(program)),
     make("td", { className: "verdict" }, verdict, ...kept),
     make("td", { className: "codes" }, ...codes(program.findings, index.titles)),
-    figure("time", program.time_s === null ? NOTHING : clock(program.time_s)),
+    figure("time", program.time || NOTHING),
     figure("worst", program.max_um === null ? NOTHING : program.max_um.toFixed(2), program.max_um === null ? "" : "µm"),
   );
   return row;
@@ -85,14 +85,4 @@ export function codes(findings, titles) {
 function figure(name, text, unit = "") {
   const cell = make("td", { className: `number ${name}` }, text, ...(unit ? [" ", make("span", { className: "unit" }, unit)] : []));
   return cell;
-}
-
-/**
- * A time as h:min:s, the next whole second.
- * @param {number} timeS
- */
-export function clock(timeS) {
-  const seconds = Math.ceil(timeS);
-  const [hours, minutes] = [Math.floor(seconds / 3600), Math.floor(seconds / 60) % 60];
-  return `${hours}:${String(minutes).padStart(2, "0")}:${String(seconds % 60).padStart(2, "0")}`;
 }
