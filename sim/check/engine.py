@@ -11,7 +11,7 @@ from parser.findings.findings import Finding, file_order
 from parser.program import Program, parse_program
 from parser.shape.contours import Contour, find_contours
 from sim.check.compensation.words import compensation_of
-from sim.check.path_checks import Demands, PathChecks, state_of
+from sim.check.path_checks import Demands, check_path, state_of
 from sim.check.result import CheckState, Coverage
 from sim.check.travel import too_many_steps
 
@@ -73,8 +73,8 @@ def _every_check(program: Program, demands: Demands) -> Checked:
     if excess:
         return _without_path(program, "reason-too-large", excess)
     contours = find_contours(program.toolpath, steps.corner_um)
-    path = PathChecks(program, steps, contours, demands)
-    findings = tuple(sorted([*program.findings, *in_codes(program.reading, path.findings())], key=file_order))
+    path = check_path(program, steps, contours, demands)
+    findings = tuple(sorted([*program.findings, *in_codes(program.reading, path.findings)], key=file_order))
     counts = program.reading.counts
     decoded = counts.run - int(program.toolpath.is_endless.sum())
     states = (*_parser_states(program), *path.states)

@@ -30,6 +30,7 @@ from sim.check.travel import travel_findings
 
 if TYPE_CHECKING:  # most checks know no machine, and most programs do not compensate
     from sim.check.compensation.check import OwnCompensation
+    from sim.check.pass_over_round import Offsetting
     from sim.setup.machine.table_model import TableModel
 
 
@@ -55,8 +56,40 @@ class Demands(NamedTuple):
     added_um: float | None = None
 
 
-class PathChecks:
-    """The checks of one path, with their states. Contours with a damaged or endless block are not judged."""
+class PathChecked(NamedTuple):
+    """What the checks of a path found.
+
+    Attributes
+    ----------
+    findings, states
+        In the order of the checks, and how far each check came.
+    judged
+        Contours without a damaged or endless block; others are not judged.
+    compensation
+        What the program's own compensation makes of it; None where it asks for none.
+    """
+
+    findings: tuple[Finding, ...]
+    states: tuple[CheckState, ...]
+    judged: tuple[Contour, ...]
+    compensation: "Offsetting | None"
+
+
+def check_path(program: Program, steps: Steps, contours: tuple[Contour, ...], demands: Demands) -> PathChecked:
+    """All checks of a path."""
+    checks = _PathChecks(program, steps, contours, demands)
+    findings: list[Finding] = []
+    states: list[CheckState] = []
+    for found in checks.run():
+        if isinstance(found, CheckState):
+            states.append(found)
+        else:
+            findings.append(found)
+    return PathChecked(tuple(findings), tuple(states), checks.judged, checks.compensation)
+
+
+class _PathChecks:
+    """The checks of one path; each gives its findings, then its state."""
 
     def __init__(self, program: Program, steps: Steps, contours: tuple[Contour, ...], demands: Demands) -> None:
         self._program, self._steps, self._demands = program, steps, demands
@@ -70,13 +103,13 @@ class PathChecks:
         self._retraced = retraced_contours(program.toolpath, self.judged, self._passes)
         opened = {each.contour.first: each.opened for each in self._retraced}
         self.judged = tuple(opened.get(contour.first, contour) for contour in self.judged)
-        self.states: list[CheckState] = []
 
-    def findings(self) -> Iterator[Finding]:
-        """Findings of all path checks; afterwards `states` tells how far they came."""
+    def run(self) -> Iterator[Finding | CheckState]:
+        """Findings of all path checks, and the states of the checks."""
         program, demands = self._program, self._demands
         stepped = self._stepped()
         yield from stepped
+        yield self._steps_state()
         uncut = uncut_jump_findings(program, self._rows, self._passes)
         yield from uncut
         known = (*program.findings, *stepped, *uncut)
@@ -86,34 +119,35 @@ class PathChecks:
         retraced = list(retraced_findings(program, self._retraced))
         yield from retraced
         yield from doubled_findings(program, self._rows, self._passes)
-        self._done(Check.CONTOURS, self._left_out)
+        yield self._state(Check.CONTOURS, self._left_out)
         rows = _closed(self._rows, closures)  # an open contour may not run where it was meant to
         open_ones = "" if rows is self._rows else "reason-open"
         swapped = list(swapped_findings(program, rows, self._passes))
         yield from swapped
         yield from _undoubted(sense_findings(program, rows), (*known, *swapped))
         yield from radius_rule_findings(program, rows, self._offset_um)
-        self._done(Check.SENSES, self._left_out or open_ones)
+        yield self._state(Check.SENSES, self._left_out or open_ones)
         crossings, all_pairs = crossing_findings(program, rows, self._passes)
         yield from crossings
-        self._done(Check.CROSSINGS, self._left_out or open_ones if all_pairs else "reason-many")
+        yield self._state(Check.CROSSINGS, self._left_out or open_ones if all_pairs else "reason-many")
         yield from self._over_edges()
         yield from self._into_parts(_without(rows, [*uncut, *closures, *retraced]))
-        self._done(Check.PASSES, self._left_out)
+        yield self._state(Check.PASSES, self._left_out)
         yield from self._asked_for()
         reach_um = demands.offset_um if demands.table is not None else None
         yield from header_offset_findings(program, self._passes, reach_um, demands.added_um)
         if self.compensation is not None:
             yield from self.compensation.findings
-            self._done(Check.COMPENSATION, self._left_out or self._without_value)
+            yield self._state(Check.COMPENSATION, self._left_out or self._without_value)
 
     def _stepped(self) -> list[Finding]:
         """Findings about the words that steps are counted by, where the program has such."""
+        return [] if self._program.toolpath.words is None else stepped_end_findings(self._program, self._steps)
+
+    def _steps_state(self) -> CheckState:
         if self._program.toolpath.words is None:
-            self.states.append(CheckState(Check.STEPS, "not asked", "reason-no-words"))
-            return []
-        self._done(Check.STEPS, _stopped(self._program))
-        return stepped_end_findings(self._program, self._steps)
+            return CheckState(Check.STEPS, "not asked", "reason-no-words")
+        return self._state(Check.STEPS, _stopped(self._program))
 
     def _own_compensation(self) -> "OwnCompensation | None":
         compensation = compensation_of(self._program.toolpath)
@@ -167,29 +201,30 @@ class PathChecks:
             header_um if isinstance(header_um, float) and header_um > 0.0 else self._demands.offset_um
         )
 
-    def _asked_for(self) -> Iterator[Finding]:
+    def _asked_for(self) -> Iterator[Finding | CheckState]:
         """Checks that need to know the wire or the machine."""
         program, demands = self._program, self._demands
         if self.compensation is not None:
-            self._done(Check.CORNERS, self._left_out or self._without_value)  # ISO504 tells of the offset that is known
+            # ISO504 tells of the offset that is known.
+            yield self._state(Check.CORNERS, self._left_out or self._without_value)
         elif demands.offset_um is None:
-            self.states.append(CheckState(Check.CORNERS, "not asked", "reason-no-wire"))
+            yield CheckState(Check.CORNERS, "not asked", "reason-no-wire")
         else:
             yield from corner_findings(program, self._rows, self._passes, demands.offset_um)
             yield from vanishing_findings(program, self._rows, self._passes, self._offset_um or demands.offset_um)
-            self._done(Check.CORNERS, self._left_out)
+            yield self._state(Check.CORNERS, self._left_out)
         if demands.table is None or demands.start_um is None:
-            self.states.append(CheckState(Check.TRAVEL, "not asked", "reason-no-machine"))
+            yield CheckState(Check.TRAVEL, "not asked", "reason-no-machine")
         else:
             run, steps = program, self._steps
             if self.compensation is not None:
                 run = self.compensation.program
                 steps = interpolate(run.toolpath)
             yield from travel_findings(run, steps, demands.table, demands.start_um)
-            self._done(Check.TRAVEL, "reason-damaged" if program.reading.damages else _stopped(program))
+            yield self._state(Check.TRAVEL, "reason-damaged" if program.reading.damages else _stopped(program))
 
-    def _done(self, name: Check, reason: str = "") -> None:
-        self.states.append(state_of(self._program, name, self._program.reading.not_simulated.reason or reason))
+    def _state(self, name: Check, reason: str = "") -> CheckState:
+        return state_of(self._program, name, self._program.reading.not_simulated.reason or reason)
 
 
 def _closed(rows: Ints, closures: list[Finding]) -> Ints:
