@@ -1,55 +1,67 @@
-"""The decorator of compiled loops: numba makes machine code of them once, and keeps it on disk.
+"""Compiled loops: numba makes machine code of them once, and keeps it on disk; it is loaded when a loop is called.
 
 A compiled loop is for what follows step by step from what was before, where whole arrays do not help. It calls nothing
-but numpy and other compiled loops. It is compiled when its module is imported, for the one signature that it names; so
-`python -m sim.cli.compile` compiles all of them beforehand.
+but numpy and other compiled loops. It has the one signature that it names. Neither numba nor any machine code is loaded
+with its module: that takes half a second, and most commands call few loops. `python -m sim.cli.compile` compiles all of
+them beforehand.
 
 Floats add up in the order in which they are written: the compiler may not change it (numba's ``fastmath`` is off), so
 that the same input gives the same bytes.
 """
 
 import hashlib
-import os
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+import threading
+from collections.abc import Callable
+from functools import cache, update_wrapper
 from pathlib import Path
-from typing import Any, Final, TypeVar, get_type_hints
-
-import numba
-import numpy as np
-import platformdirs
-from numba import types
-from numba.core import config, event
-from numpy.typing import NDArray
-
-from controller.compiled.compiling import compiling
+from types import ModuleType
+from typing import Any, Final, TypeVar, cast, get_type_hints
 
 Function = TypeVar("Function", bound=Callable[..., Any])
+_loading: Final = threading.RLock()  # loops that a loop calls are loaded with it
 
 
-_COMPILING: Final = "numba:compile"  # an event of numba, where no code on disk fits
+class Loop:
+    """A function that is called as machine code.
+
+    Attributes
+    ----------
+    function
+        What it is made of.
+    signature, tuples
+        As `compiled` has them.
+    digest
+        Of all sources that go into it.
+    """
+
+    def __init__(self, function: Callable[..., Any], signature: str, tuples: tuple[type, ...]) -> None:
+        self.function, self.signature, self.tuples = function, signature, tuples
+        self.digest = _digest(function)
+        self._code: Callable[..., Any] | None = None
+        update_wrapper(self, function)
+
+    def __call__(self, *args: Any) -> Any:
+        """What the function returns. TypeError for arguments that are not those of the signature."""
+        return (self._code or self.loaded())(*args)
+
+    def loaded(self) -> Callable[..., Any]:
+        """Its machine code, from disk, or made now and kept there."""
+        with _loading:
+            if self._code is None:
+                self._code = _machine_code().code_of(self)
+            return self._code
 
 
-_OPTIONS: Final = {"nogil": True, "error_model": "numpy"}
+@cache
+def _machine_code() -> ModuleType:
+    from controller.compiled import machine_code  # noqa: PLC0415 - numba takes half a second
 
-
-_OF_TUPLES: Final = {"forceinline": True, "_nrt": False}
-
-
-_TYPES: Final[dict[Any, types.Type]] = {
-    float: types.float64,
-    int: types.int64,
-    bool: types.boolean,
-    NDArray[np.float64]: types.float64[::1],
-    NDArray[np.int64]: types.int64[::1],
-}
-
-
-_made_of: Final[dict[Callable[..., Any], str]] = {}  # loops, with the digest of all sources that went into them
+    machine_code.let_call_one_another(Loop)
+    return machine_code
 
 
 def compiled(signature: str, *tuples: type) -> Callable[[Function], Function]:
-    """Compile a function for a signature in numba's words, such as ``"f8(f8[::1], i8)"``.
+    """Compile a function for a signature in numba's words, such as ``"f8(f8[::1], i8)"``, when it is first called.
 
     A signature may also name NamedTuples, which are given as `tuples`: ``"(Drive, f8)"``. Their fields are floats,
     ints, bools, arrays (n,) of float64 or int64, and other such tuples. Such a function becomes a part of the loops
@@ -61,44 +73,9 @@ def compiled(signature: str, *tuples: type) -> Callable[[Function], Function]:
     """
 
     def compiled_loop(function: Function) -> Function:
-        digest, typed = _digest(function), _signature(signature, tuples)
-        options = _OPTIONS | _OF_TUPLES if tuples else _OPTIONS
-        with _keeping(digest):
-            try:
-                loop: Function = numba.njit(typed, cache=True, **options)(function)
-            except RuntimeError:  # numba found no place to keep it
-                loop = numba.njit(typed, **options)(function)
-        _made_of[loop] = digest
-        return loop
+        return cast("Function", Loop(function, signature, tuples))
 
     return compiled_loop
-
-
-def _signature(text: str, tuples: tuple[type, ...]) -> Any:
-    """A signature as numba has it; numba itself reads a text so, but knows no tuples of others."""
-    return eval(text, {}, vars(types) | {tuple_.__name__: _tuple_type(tuple_) for tuple_ in tuples})  # noqa: S307
-
-
-def _tuple_type(each: type) -> types.Type:
-    """Type of a NamedTuple; numba has one of its own for those with fields that are all alike."""
-    fields = tuple(_TYPES[of] if of in _TYPES else _tuple_type(of) for of in get_type_hints(each).values())
-    if len(set(fields)) == 1:
-        return types.NamedUniTuple(fields[0], len(fields), each)
-    return types.NamedTuple(fields, each)
-
-
-class _Started(event.Listener):  # type: ignore[misc]  # numba has no types
-    """Tells that something has started."""
-
-    def on_start(self, event: Any) -> None:
-        """It has started."""
-        compiling()
-
-    def on_end(self, event: Any) -> None:
-        """It has ended."""
-
-
-event.register(_COMPILING, _Started())
 
 
 def _digest(function: Callable[..., Any]) -> str:
@@ -106,31 +83,21 @@ def _digest(function: Callable[..., Any]) -> str:
 
     numba itself looks at the file of a function alone, and not at what it takes from others.
     """
-    own = Path(function.__code__.co_filename).read_bytes()
-    known = {text for name, value in function.__globals__.items() if (text := _text_of(name, value))}
+    values = function.__globals__.items()
+    known = {text for name, value in values if (text := _text_of(name, value))}
+    own = _source(function.__code__.co_filename)
     return hashlib.sha256(b"\n".join([own, *(text.encode() for text in sorted(known))])).hexdigest()[:16]
+
+
+@cache
+def _source(file: str) -> bytes:
+    return Path(file).read_bytes()
 
 
 def _text_of(name: str, value: object) -> str:
     """What a global value puts into a compiled loop, as text; none where it puts in nothing."""
-    if _is_loop(value):
-        return _made_of[value]  # type: ignore[index]  # a loop is a function
+    if isinstance(value, Loop):
+        return value.digest
     if isinstance(value, type) and hasattr(value, "_fields"):
         return f"{name}: {get_type_hints(value)}"
     return f"{name} = {value!r}" if isinstance(value, int | float) else ""
-
-
-def _is_loop(value: object) -> bool:
-    return isinstance(value, numba.core.dispatcher.Dispatcher) and value in _made_of
-
-
-@contextmanager
-def _keeping(digest: str) -> Iterator[None]:
-    """Let numba keep what is compiled meanwhile in a folder of these sources."""
-    own = config.CACHE_DIR
-    folder = Path(own) if own else Path(platformdirs.user_cache_dir("drycut", appauthor=False)) / "loops"
-    config.CACHE_DIR = os.fspath(folder / digest)
-    try:
-        yield
-    finally:
-        config.CACHE_DIR = own

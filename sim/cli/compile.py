@@ -3,9 +3,10 @@
 import importlib
 from typing import Final
 
+from controller.compiled.loops import Loop
+
 LOOPS: Final[tuple[str, ...]] = (
     "controller.stepping.chunks",
-    "sim.make.cam.order.order",
     "sim.make.cam.order.order",
     "sim.cut.kerf.edges",
     "sim.cut.kerf.last_beside",
@@ -20,7 +21,6 @@ LOOPS: Final[tuple[str, ...]] = (
     "sim.measure.deviation.meters",
     "sim.table.physics.drive",
     "sim.table.physics.rating",
-    "sim.table.physics.rating",
     "sim.table.record.bins",
     "sim.table.record.history",
     "sim.table.solve.tick",
@@ -29,9 +29,11 @@ LOOPS: Final[tuple[str, ...]] = (
 
 
 def compile_loops() -> None:
-    """Import `LOOPS`, which compiles what is not on disk yet."""
+    """Compile all loops of `LOOPS` that are not on disk yet."""
     for module in LOOPS:
-        importlib.import_module(module)
+        for value in vars(importlib.import_module(module)).values():
+            if isinstance(value, Loop):
+                value.loaded()
 
 
 if __name__ == "__main__":

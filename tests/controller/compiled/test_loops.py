@@ -6,10 +6,12 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 from places import ROOT
 
 from sim.cli.compile import LOOPS
+from sim.make.cam.order.order import neighbours
 
 INNER = """
 from controller.compiled.loops import compiled
@@ -71,7 +73,42 @@ def test_every_module_with_loops_is_compiled_at_set_up() -> None:
         for source in (ROOT / package).rglob("*.py"):
             if any(map(_is_loop, ast.walk(ast.parse(source.read_text(encoding="utf-8"))))):
                 with_loops.add(".".join(source.relative_to(ROOT).with_suffix("").parts))
-    assert set(LOOPS) == with_loops
+    assert sorted(LOOPS) == sorted(with_loops)
+
+
+def test_numba_is_loaded_when_a_loop_is_called_and_not_before() -> None:
+    code = (
+        "import sys, importlib\n"
+        "for name in sys.argv[1:]: importlib.import_module(name)\n"
+        "print('numba' in sys.modules)\n"
+        "from sim.table.solve.tick import due_s\n"
+        "due_s.loaded()\n"
+        "print('numba' in sys.modules)\n"
+    )
+    command = [sys.executable, "-c", code, *LOOPS]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True, timeout=120)
+    assert done.stdout.split() == ["False", "True"]
+
+
+def test_threads_that_call_a_loop_first_all_get_what_it_returns() -> None:
+    code = (
+        "from concurrent.futures import ThreadPoolExecutor\n"
+        "import numpy as np\n"
+        "from sim.make.cam.order.order import neighbours\n"
+        "place = np.arange(12.0).reshape(6, 2)\n"
+        "def call(_): return neighbours(place, 1).tolist()\n"
+        "with ThreadPoolExecutor(8) as pool: found = list(pool.map(call, range(8)))\n"
+        "print(all(each == found[0] for each in found), found[0][0])\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True, timeout=120
+    )
+    assert done.stdout.split() == ["True", "[1]"]
+
+
+def test_arguments_of_another_signature_are_refused() -> None:
+    with pytest.raises(TypeError):
+        neighbours(np.zeros((2, 2), dtype=np.complex128), 1)
 
 
 def _is_loop(node: ast.AST) -> bool:
