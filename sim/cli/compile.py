@@ -8,6 +8,7 @@ from controller.compiled.loops import Loop
 LOOPS: Final[tuple[str, ...]] = (
     "controller.stepping.chunks",
     "sim.make.cam.order.order",
+    "sim.cut.kerf.bands",
     "sim.cut.kerf.edges",
     "sim.cut.kerf.last_beside",
     "sim.cut.kerf.stars",

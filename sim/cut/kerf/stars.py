@@ -33,17 +33,17 @@ def rays(offset_um: float) -> Floats:
     return np.stack([np.cos(angle), np.sin(angle)], axis=1)
 
 
-def stars(place_um: Floats, first: Ints, middle_um: Floats, offset_um: float) -> Regions:
+def stars(place_um: Floats, bounds: Ints, middle_um: Floats, offset_um: float) -> Regions:
     """Union of the discs of each stretch, (s,); every disc must hold the stretch's middle (s, 2).
 
-    `first` (s,) are the indices of the places (m, 2) at which the stretches begin; the last one ends with the places.
+    `bounds` (s, 2) are the indices of the places (m, 2) at which the stretches begin, and one past their last.
     """
-    toward, bounds = np.ascontiguousarray(rays(offset_um).T), np.append(first, len(place_um))
+    toward, bounds = np.ascontiguousarray(rays(offset_um).T), np.ascontiguousarray(bounds)
     places, middles = np.ascontiguousarray(place_um), np.ascontiguousarray(middle_um)
-    made: Regions = np.empty(len(first), dtype=np.object_)
-    for low in range(0, len(first), _TOGETHER):
+    made: Regions = np.empty(len(bounds), dtype=np.object_)
+    for low in range(0, len(bounds), _TOGETHER):
         some = slice(low, low + _TOGETHER)
-        corners, ends = _borders(places, bounds[low : low + _TOGETHER + 1], middles[some], toward, offset_um)
+        corners, ends = _borders(places, bounds[some], middles[some], toward, offset_um)
         rings = np.arange(len(ends))
         made[some] = shapely.from_ragged_array(shapely.GeometryType.POLYGON, corners, (ends, rings))
     return made
@@ -84,7 +84,7 @@ def _farthest(border: Floats, low: int, high: int) -> tuple[int, float]:
 
 
 @compiled("void(f8[:,::1], f8, b1[::1])")
-def _thin(border: Floats, within: float, is_kept: Bools) -> None:
+def thin(border: Floats, within: float, is_kept: Bools) -> None:
     """Mark the corners (k, 2) of a ring that are kept, so that no other lies farther off than `within`."""
     past = border.shape[0]
     is_kept[:] = False
@@ -103,7 +103,7 @@ def _thin(border: Floats, within: float, is_kept: Bools) -> None:
             number += 2
 
 
-@compiled("Tuple((f8[:,::1], i8[::1]))(f8[:,::1], i8[::1], f8[:,::1], f8[:,::1], f8)")
+@compiled("Tuple((f8[:,::1], i8[::1]))(f8[:,::1], i8[:,::1], f8[:,::1], f8[:,::1], f8)")
 def _borders(place: Floats, bounds: Ints, middle: Floats, toward: Floats, offset: float) -> tuple[Floats, Ints]:
     """Corners (c, 2) of the stars of s stretches, each ring closed, and (s + 1,) where each ring begins and ends."""
     rays_number = toward.shape[1]
@@ -112,8 +112,8 @@ def _borders(place: Floats, bounds: Ints, middle: Floats, toward: Floats, offset
     ends = np.zeros(middle.shape[0] + 1, dtype=np.int64)
     made = 0
     for star in range(middle.shape[0]):
-        _border(place[bounds[star] : bounds[star + 1]], middle[star], toward, offset, border)
-        _thin(border, SIMPLER_UM, is_border)
+        _border(place[bounds[star, 0] : bounds[star, 1]], middle[star], toward, offset, border)
+        thin(border, SIMPLER_UM, is_border)
         for k in range(rays_number):
             if is_border[k]:
                 corners[made] = border[k]

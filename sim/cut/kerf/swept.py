@@ -1,9 +1,10 @@
-"""The region that the wire sweeps on its way: a union of stars, one to each stretch of the way.
+"""The region that the wire sweeps on its way: a union of bands and stars, one to each stretch of the way.
 
-The kerf is the union of discs about all places of the wire. Take a stretch no longer than a disc's diameter: every disc
-on it holds the middle of the stretch. So their union is star-shaped about the middle: each ray from there meets the
-border once, where it leaves the farthest disc. That place is known in closed form. No buffer of a line is used: GEOS
-simplifies the line by 1 % of the distance first, 1 µm here (`BufferInputLineSimplifier`).
+The kerf is the union of discs about all places of the wire. Of a straight stretch it is a band (`bands`). Else take a
+stretch no longer than a disc's diameter: every disc on it holds the middle of the stretch. So their union is
+star-shaped about the middle: each ray from there meets the border once, where it leaves the farthest disc. Both are
+known in closed form. No buffer of a line is used: GEOS simplifies the line by 1 % of the distance first, 1 µm here
+(`BufferInputLineSimplifier`).
 
 The kerf of a run: the region that the wire removed, and how wide it is beside each block.
 """
@@ -18,6 +19,7 @@ from parser.geometry.curves import Bools, Curves, Floats, Ints
 from parser.shape.contours import Contour
 from parser.shape.passes import find_passes, leads_of
 from parser.toolpath import Toolpath
+from sim.cut.kerf.bands import are_straight, bands
 from sim.cut.kerf.edges import Edges, Range, edges_of, ranges
 from sim.cut.kerf.stars import stars
 from sim.cut.kerf.ways import WireWay, wire_ways
@@ -25,6 +27,7 @@ from sim.cut.regions import Region, Regions, cut_by_blocks, union_all, unions
 from sim.table.trace import Trace
 
 _STRETCH = 1.9  # offsets, at most; at 2 the discs at its ends would only just reach its middle
+_BAND = 32.0  # offsets, at most: what lies round a box is cut out of no longer ones
 _TURN_RAD = 0.5  # of a stretch, at most
 _KEPT = 3  # of as many levels one is kept: all of them take twice the memory
 
@@ -42,6 +45,8 @@ class Swept(NamedTuple):
         The wire's way.
     first
         (s,) int64, first place of each stretch.
+    is_band
+        (s,) bool, whether it is swept as a band; else as a star.
     levels
         Regions of the stretches, then of up to eight of these, and so on up to the whole.
     boxes
@@ -50,6 +55,7 @@ class Swept(NamedTuple):
 
     way: WireWay
     first: Ints
+    is_band: Bools
     levels: tuple[Regions, ...]
     boxes: tuple[Floats, ...]
 
@@ -58,6 +64,19 @@ class Swept(NamedTuple):
         """The whole, empty where the wire did not come."""
         whole: Region = self.levels[-1][0] if len(self.levels[0]) else shapely.Polygon()
         return whole
+
+    def up_to(self, stretch: int, at: int, offset_um: float) -> Region:
+        """What is swept on a stretch up to one of its places, by its index on the way; that is the first at least."""
+        bounds, place_um = np.array([[self.first[stretch], at + 1]]), self.way.place_um
+        if not self.is_band[stretch]:
+            whole = np.append(self.first, len(self.way.row))[None, stretch : stretch + 2]
+            made = stars(place_um, bounds, middles(self.way, whole), offset_um)
+        elif are_straight(place_um[bounds[0, 0] : at + 1], np.zeros(1, dtype=np.int64)):
+            made = bands(place_um, bounds, offset_um)
+        else:  # its first places alone, which do not tell yet where it leads
+            made = stars(place_um, bounds, place_um[bounds[:, 0]], offset_um)
+        region: Region = made[0]
+        return region
 
     def near(self, first: int, past: int, box: Box) -> list[Region]:
         """Regions that are swept on some stretches, as far as they come near a box: together, all within the box.
@@ -95,10 +114,14 @@ def _larger(box: Box) -> Box:
 
 def swept_along(curves: Curves, way: WireWay, offset_um: float) -> Swept:
     """The region that a wire with this offset sweeps on its way along the rows of some curves."""
-    first = _stretches(way, _longest_um(curves, offset_um))
-    regions = stars(way.place_um, first, middles(way, first), offset_um)
+    first, is_band = _stretches(way, _longest_um(curves, offset_um), offset_um)
+    bounds = np.stack([first, np.append(first, len(way.row))[1:]], axis=1)
+    regions = np.empty(len(first), dtype=np.object_)
+    regions[is_band] = bands(way.place_um, bounds[is_band], offset_um)
+    regions[~is_band] = stars(way.place_um, bounds[~is_band], middles(way, bounds[~is_band]), offset_um)
     levels = _levels(regions)
-    return Swept(way, first, levels, tuple(np.asarray(shapely.bounds(level)).reshape(-1, 4) for level in levels))
+    boxes = tuple(np.asarray(shapely.bounds(level)).reshape(-1, 4) for level in levels)
+    return Swept(way, first, is_band, levels, boxes)
 
 
 def _longest_um(curves: Curves, offset_um: float) -> Floats:
@@ -108,23 +131,36 @@ def _longest_um(curves: Curves, offset_um: float) -> Floats:
     return shorter
 
 
-def _stretches(way: WireWay, longest_um: Floats) -> Ints:
-    """Indices (s,) of the first place of each stretch. No stretch runs on into the next block.
+def _stretches(way: WireWay, longest_um: Floats, offset_um: float) -> tuple[Ints, Bools]:
+    """Indices (s,) of the first place of each stretch, and whether it is a band. None runs on into the next block.
 
     The rays of a star miss the notch between two discs. Notches are sharp at corners only, and there a new star begins.
     """
     if not len(way.row):
-        return np.empty(0, dtype=np.int64)
+        return np.empty(0, dtype=np.int64), np.empty(0, dtype=np.bool_)
     changes = np.diff(way.row, prepend=-1) != 0
-    begin = way.along_um[changes][np.cumsum(changes) - 1]
-    number = np.floor((way.along_um - begin) / longest_um[way.row])
-    return np.flatnonzero(changes | (np.diff(number, prepend=-1.0) != 0.0))
+    along = way.along_um - way.along_um[changes][np.cumsum(changes) - 1]
+    is_long = _starts(changes, along, np.full(len(longest_um), _BAND * offset_um)[way.row])
+    long = np.flatnonzero(is_long)
+    past = np.append(long[1:], len(way.row))
+    length = way.along_um[past - 1] - way.along_um[long]
+    is_straight = are_straight(way.place_um, long) & (length > longest_um[way.row[long]])
+    in_band = np.repeat(is_straight, past - long)
+    is_first = np.where(in_band, is_long, is_long | _starts(changes, along, longest_um[way.row]))
+    first = np.flatnonzero(is_first)
+    return first, in_band[first]
 
 
-def middles(way: WireWay, first: Ints) -> Floats:
-    """Places (s, 2) half way along each stretch; `first` (s,) are the indices at which the stretches begin."""
-    last = np.append(first, len(way.along_um))[1:] - 1
-    half = 0.5 * (way.along_um[first] + way.along_um[last])
+def _starts(changes: Bools, along_um: Floats, longest_um: Floats) -> Bools:
+    """Where stretches of some length begin (m,), along the way through each block."""
+    number = np.floor(along_um / longest_um)
+    starts: Bools = changes | (np.diff(number, prepend=-1.0) != 0.0)
+    return starts
+
+
+def middles(way: WireWay, bounds: Ints) -> Floats:
+    """Places (s, 2) half way along each stretch, between its `bounds` (s, 2)."""
+    half = 0.5 * (way.along_um[bounds[:, 0]] + way.along_um[bounds[:, 1] - 1])
     middle: Floats = way.place_um[np.searchsorted(way.along_um, half)]
     return middle
 

@@ -12,8 +12,7 @@ import shapely
 from numpy.typing import NDArray
 
 from parser.geometry.curves import Floats
-from sim.cut.kerf.stars import stars
-from sim.cut.kerf.swept import Box, Swept, middles
+from sim.cut.kerf.swept import Box, Swept
 from sim.cut.kerf.ways import WireWay
 from sim.cut.regions import Region, difference, union_all
 
@@ -128,14 +127,12 @@ def _within(
             high, piece = middle, after
         else:
             low, hung = middle, after
-    way = swept.way
-    about = middles(way, swept.first)[low : low + 1]
-    first, past = np.append(swept.first, len(way.row))[low : low + 2].tolist()
+    stretch = low
+    first, past = np.append(swept.first, len(swept.way.row))[low : low + 2].tolist()
     before, low, high = hung, first - 1, past - 1
     while high - low > 1:
         at = (low + high) // 2
-        star = stars(way.place_um[first : at + 1], np.zeros(1, dtype=np.int64), about, offset_um)
-        after = question.part_left(before, star[0])
+        after = question.part_left(before, swept.up_to(stretch, at, offset_um))
         if question.is_free(after):
             high, piece = at, after
         else:

@@ -136,7 +136,7 @@ def test_a_star_reaches_to_the_farthest_disc_along_each_ray():
     out = place - middle
     along, across = out @ toward.T, out @ np.stack([-toward[:, 1], toward[:, 0]])
     reach = (along + np.sqrt(F**2 - across**2)).max(axis=0)
-    (star,) = stars(place, np.zeros(1, dtype=np.int64), middle, F)
+    (star,) = stars(place, np.array([[0, 60]]), middle, F)
     border = np.array(star.exterior.coords)[:-1]
     assert len(border) <= len(toward)
     off = np.array([star.exterior.distance(point) for point in shapely.points(middle + reach[:, None] * toward)])

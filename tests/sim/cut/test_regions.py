@@ -66,7 +66,7 @@ def test_an_error_names_the_blocks_of_the_innermost_question(monkeypatch):
         raise GEOSException("TopologyException")
 
     monkeypatch.setattr(regions.shapely, "union", never)
-    path = Pen().to(1000, 0).jump(5000, 0).to(6000, 0).to(6000, 2000).to(5000, 0).path()
-    with pytest.raises(RegionError) as told, cut_by_blocks(1, 5):
+    path = Pen().to(1000, 0).to(1000, 500).jump(5000, 0).to(6000, 0).to(6000, 2000).to(5000, 0).path()
+    with pytest.raises(RegionError) as told, cut_by_blocks(1, 6):
         kerf_along(path, offset_um=F)
-    assert (told.value.first, told.value.last) == (1, 1)
+    assert (told.value.first, told.value.last) == (1, 2)
