@@ -14,12 +14,12 @@ demo: $(READY)
 
 # Each core begins with a run of files, as their tests share what they make, and takes from the others when it is done.
 test: lint browser
-	$(BIN)/pytest -m alone $$(grep -rl --include='test_*.py' 'mark\.alone' tests)
 	$(BIN)/pytest -m "not alone" --numprocesses auto --dist worksteal
 
 # Promises that hold for any input, on all the cases that are promised: hours, where the suite takes some of them.
 deep: $(READY)
-	DRYCUT_DEEP=1 $(BIN)/pytest -m "deep or deeper" --numprocesses auto
+	DRYCUT_DEEP=1 $(BIN)/pytest -m alone $$(grep -rl --include='test_*.py' 'mark\.alone' tests)
+	DRYCUT_DEEP=1 $(BIN)/pytest -m "(deep or deeper) and not alone" --numprocesses auto
 
 # All at once: types take the longest, on one core.
 lint: $(READY)
