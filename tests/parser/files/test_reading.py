@@ -20,7 +20,7 @@ SHIPPED = {
     *("parser/findings/catalogue.py", "sim/show/texts/texts.py", "sim/setup/key_words.py", "sim/setup/key_tables.py"),
     *("sim/show/html/environment.py", "sim/show/findings/catalogue_document.py", "sim/show/terminal/documents.py"),
     *("parser/iso/profiles/profile.py", "parser/write/iso_choices.py", "parser/drawing/dxf/linetypes.py"),
-    "controller/compiled/loops.py",  # its own modules
+    *("controller/compiled/loops.py", "sim/base/workers/makers.py"),  # our own modules
     "sim/serve/page/shortcut.py",  # its icon
     *("controller/card/abi/c_text.py", "sim/clients/library/build.py"),  # C that libraries are made of
 }
