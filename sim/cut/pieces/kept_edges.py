@@ -13,7 +13,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from parser.geometry.curves import Bools, Floats, Ints
+from parser.geometry.curves import Bools, Floats, Ints, total_before
 from sim.cut.kerf.swept import Kerf
 from sim.cut.kerf.ways import rows_that_made
 from sim.cut.pieces.pieces import Pieces
@@ -62,7 +62,8 @@ def _openings(pieces: Pieces) -> Iterator[KeptShape]:
 
 _ON_UM = 0.2  # a region is exact to 0.1 µm, and so is the edge of a block
 _NONE = -1
-_STRING = 64  # corners
+_STRING = 64  # corners, at most
+_STRING_UM = 2000.0
 
 
 class KeptEdges(NamedTuple):
@@ -142,13 +143,16 @@ def _rings_at(rings: list[shapely.LinearRing], place_um: Floats) -> Ints:
 
 
 def _strings(rings: list[shapely.LinearRing]) -> tuple[NDArray[np.object_], Ints]:
-    """Rings in strings of some corners, and the ring of each: the box of a string has few places beside it."""
-    corner, ring = shapely.get_coordinates(rings, return_index=True)
+    """Rings in strings of some corners and some length, and the ring of each: their boxes have few places in them."""
+    corner, ring = shapely.get_coordinates(shapely.segmentize(rings, _STRING_UM), return_index=True)
     first = np.flatnonzero(np.diff(ring, prepend=-1))
     number = np.arange(len(ring)) - first[ring]
     last = np.append(first[1:], len(ring))[ring] - 1
-    begin = np.flatnonzero((number % _STRING == 0) & (np.arange(len(ring)) < last))
-    past = np.minimum(begin + _STRING, last[begin]) + 1
+    along = total_before(np.hypot(*np.diff(corner, axis=0).T))
+    part = np.floor((along - along[first][ring]) / _STRING_UM)
+    ends = (np.diff(part, prepend=-1.0) != 0.0) | (number % _STRING == 0)
+    begin = np.flatnonzero(ends & (np.arange(len(ring)) < last))
+    past = np.minimum(np.append(begin[1:], len(ring)), last[begin]) + 1
     of = np.repeat(np.arange(len(begin)), past - begin)
     at = np.arange(len(of)) - (np.cumsum(past - begin) - past)[of]
     return shapely.linestrings(corner[at], indices=of), ring[begin]

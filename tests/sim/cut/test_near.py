@@ -12,7 +12,8 @@ from parser.toolpath import Toolpath
 from sim.cut.kerf.nominal import nominal_region
 from sim.cut.kerf.stars import SIMPLER_UM, rays, stars
 from sim.cut.kerf.ways import rows_that_made
-from sim.cut.pieces import moments
+from sim.cut.pieces import kept_edges, moments
+from sim.cut.pieces.kept_edges import lie_on
 from sim.cut.pieces.pieces import pieces_of
 from sim.cut.play import freedom
 from sim.cut.play.freedom import plays_of
@@ -153,3 +154,15 @@ def test_of_places_equally_near_the_last_is_told_as_by_all_distances():
     last = np.array([np.flatnonzero(one <= near + 0.04)[-1] for one, near in zip(off, least, strict=True)])
     expected = np.where(least < F + 0.2, way.row[last], -1)
     assert rows_that_made([way], place, F).tolist() == expected.tolist()
+
+
+def test_places_lie_on_rings_of_long_sides_as_by_all_distances():
+    rng = np.random.default_rng(5)
+    rings = [shapely.box(-size, -size, size, size).exterior for size in range(3000, 60000, 3000)]
+    rings += [shapely.Point(0, 90000).buffer(20000, quad_segs=400).exterior]
+    share = rng.random(4000)
+    on = np.concatenate([shapely.get_coordinates(ring.interpolate(share[:200], normalized=True)) for ring in rings])
+    place = np.concatenate([on + rng.normal(0.0, 0.15, on.shape), rng.uniform(-6e4, 6e4, (2000, 2))])
+    off = np.min([shapely.distance(ring, shapely.points(place)) for ring in rings], axis=0)
+    sure = np.abs(off - kept_edges._ON_UM) > 1e-6
+    assert (lie_on(rings, place) == (off <= kept_edges._ON_UM))[sure].all()
