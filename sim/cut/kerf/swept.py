@@ -71,10 +71,10 @@ class Swept(NamedTuple):
         if not self.is_band[stretch]:
             whole = np.append(self.first, len(self.way.row))[None, stretch : stretch + 2]
             made = stars(place_um, bounds, middles(self.way, whole), offset_um)
-        elif are_straight(place_um[bounds[0, 0] : at + 1], np.zeros(1, dtype=np.int64)):
-            made = bands(place_um, bounds, offset_um)
-        else:  # its first places alone, which do not tell yet where it leads
+        elif np.hypot(*(place_um[at] - place_um[bounds[0, 0]])) <= offset_um:  # too short to tell where it leads
             made = stars(place_um, bounds, place_um[bounds[:, 0]], offset_um)
+        else:
+            made = bands(place_um, bounds, offset_um)
         region: Region = made[0]
         return region
 

@@ -9,7 +9,8 @@ from traced import F, kerf_along
 from parser.geometry.curves import Floats
 from sim.cut.kerf.bands import are_straight, bands
 from sim.cut.kerf.stars import SIMPLER_UM
-from sim.cut.kerf.ways import spacing_um
+from sim.cut.kerf.swept import Swept
+from sim.cut.kerf.ways import WireWay, spacing_um
 
 OFF_UM = 0.02 + SIMPLER_UM
 """What a chord between discs that lie 4 µm apart leaves out, or fills, and what is simplified."""
@@ -57,6 +58,21 @@ def test_what_is_no_straight_stretch_is_none() -> None:
     back[150:160, 0] -= 30.0
     first = np.array([0, 301, 602, 903])
     assert are_straight(np.concatenate([line, bowed, back, still]), first).tolist() == [True, False, False, False]
+
+
+def test_what_is_swept_up_to_a_place_is_the_union_of_the_discs_so_far() -> None:
+    """Also where that part of the way lies farther off its own chord than the whole does off its chord."""
+    along = np.linspace(0.0, 3000.0, 1001)
+    across = np.select([along < 120.0, along < 400.0, along < 1500.0, along < 3000.0], [0.0, 1.0, -0.95, 1.0])
+    place = np.stack([along, across], axis=1)
+    first, row = np.zeros(1, dtype=np.int64), np.zeros(1001, dtype=np.int64)
+    assert are_straight(place, first).all()
+    assert not are_straight(place[:502], first).any()
+    swept = Swept(WireWay(place, along, along, row), first, np.array([True]), (), ())
+    for at in (0, 1, 20, 34, 100, 501, 700, 1000):
+        discs = shapely.union_all(shapely.buffer(shapely.points(place[: at + 1]), F, quad_segs=64))
+        region = swept.up_to(0, at, F)
+        assert shapely.hausdorff_distance(region.exterior, discs.exterior, densify=0.2) <= OFF_UM + NOTCH_UM, at
 
 
 def test_both_ways_of_sweeping_give_one_kerf(monkeypatch: pytest.MonkeyPatch) -> None:
