@@ -275,6 +275,16 @@ def test_a_run_is_cancelled_and_another_one_begun(browsers: Browsers, tmp_path: 
         assert "the thickness in mm is a number, not 'a lot'" in shown.page.inner_text("#stage")
 
 
+def test_a_run_waits_until_the_program_has_come(browsers: Browsers, keyhole: OpenedPage) -> None:
+    with tab(browsers, keyhole.address) as shown:
+        shown.page.route("**/first", lambda route: (shown.page.wait_for_timeout(500), route.continue_()))
+        shown.page.reload()
+        assert shown.page.input_value("#text") == ""
+        shown.page.click("#start")
+        assert shown.text() == KEYHOLE.read_text()
+        shown.page.click("#cancel")
+
+
 def test_a_folder_is_listed_and_its_programs_open_by_a_click(browsers: Browsers, tmp_path: Path) -> None:
     (tmp_path / f"{MARKUP.replace('/', '')}.3b").write_text(WRONG)
     (tmp_path / "b.3b").write_text("B1000B0B1000GXL1\nB1000B0B1000GXL3\nDD\n")

@@ -77,7 +77,7 @@ export function wireRun(current, onStart, onDrafted, tell) {
   /** Show how far the run is. */
   function show() {
     const isRunning = known.state === "running";
-    start.disabled = isRunning;
+    start.disabled = isRunning || !current().text.trim(); // a program that has not come yet is none to run
     cancel.hidden = bar.hidden = !isRunning;
     bar.value = isRunning && known.of ? ((known.at ?? 0) + (known.share ?? 0)) / known.of : 0;
     const isOther = Boolean(known.files) && current().text !== ran.text;
