@@ -6,20 +6,25 @@ READY := .venv/.ready
 # Tests start hundreds of processes: each would compile again all that it imports, and each core all tests.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: demo test deep lint style types imports scripts browser bench steps mutate survivors fuzz golden pages lock clean
+.PHONY: demo test suite deep lint style types imports scripts browser bench steps mutate survivors fuzz golden pages lock clean
 
 demo: $(READY)
 	$(BIN)/drycut run scenarios/keyhole -o out/keyhole
 	@echo "open out/keyhole/report.html in a browser"
 
+# Types take one core for most of a minute: the suite runs beside them. Scripts come first: tests of pages need what npm
+# installs for them.
+test: browser scripts
+	@$(MAKE) --no-print-directory --jobs types style imports suite
+
 # Each core begins with a run of files, as their tests share what they make, and takes from the others when it is done.
-test: lint browser
+suite: $(READY)
 	$(BIN)/pytest -m "not alone" --numprocesses auto --dist worksteal
 
 # Promises that hold for any input, on all the cases that are promised: hours, where the suite takes some of them.
 deep: $(READY)
 	DRYCUT_DEEP=1 $(BIN)/pytest -m alone $$(grep -rl --include='test_*.py' 'mark\.alone' tests)
-	DRYCUT_DEEP=1 $(BIN)/pytest -m "(deep or deeper) and not alone" --numprocesses auto
+	DRYCUT_DEEP=1 $(BIN)/pytest -m "(deep or deeper or hypothesis) and not alone" --numprocesses auto
 
 # All at once: types take the longest, on one core.
 lint: $(READY)

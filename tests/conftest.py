@@ -6,12 +6,12 @@ from collections.abc import Generator
 import pytest
 from browser import browsers, open_page
 from c_library import library
-from depth import DEEP
+from depth import DEEP, examples
 from hypothesis import settings
 
 __all__ = ["browsers", "library", "open_page"]
 
-settings.register_profile("steady", deadline=None, derandomize=True)
+settings.register_profile("steady", max_examples=examples(), deadline=None, derandomize=True)
 settings.load_profile("steady")
 
 

@@ -3,6 +3,7 @@
 import math
 
 import numpy as np
+from depth import examples
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
@@ -48,7 +49,7 @@ def walked(path, axis, sense):
     return along, sense * path.place(row, along - path.before_um[row])[:, axis]
 
 
-@settings(max_examples=300, deadline=None, derandomize=True)
+@settings(max_examples=examples(300), deadline=None, derandomize=True)
 @given(rows=rows, axis=st.integers(0, 1), place=st.integers(-45, 45), sense=st.sampled_from([1, -1]))
 def test_the_first_rise_through_a_place_is_where_a_walk_finds_it(rows, axis, place, sense):
     path = path_of(rows)
@@ -63,7 +64,7 @@ def test_the_first_rise_through_a_place_is_where_a_walk_finds_it(rows, axis, pla
         assert found == math.inf or height.max() > sense * off - STEP_UM
 
 
-@settings(max_examples=300, deadline=None, derandomize=True)
+@settings(max_examples=examples(300), deadline=None, derandomize=True)
 @given(rows=rows, axis=st.integers(0, 1), place=st.integers(-45, 45), sense=st.sampled_from([1, -1]))
 def test_the_first_way_on_beyond_a_place_is_where_a_walk_finds_it(rows, axis, place, sense):
     path = path_of(rows)

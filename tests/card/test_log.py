@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 import pytest
 from command import run_inside
+from depth import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -99,7 +100,7 @@ PARAMETERS = {
 }
 
 
-@settings(max_examples=40)
+@settings(max_examples=examples(40))
 @given(st.data())
 @pytest.mark.parametrize("arguments", [HOSTILE, FITTING], ids=["hostile", "fitting"])
 def test_any_session_is_repeated(arguments: st.SearchStrategy[Any], data: st.DataObject) -> None:

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from depth import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from watched import ABNORMAL, EMPTY, IDLE, Watched
@@ -279,7 +280,7 @@ def way(watched):
     return np.stack([pulses.x_um, pulses.y_um], axis=1)
 
 
-@settings(max_examples=40, deadline=None, derandomize=True)
+@settings(max_examples=examples(40), deadline=None, derandomize=True)
 @given(
     stops=st.lists(st.tuples(st.floats(0.1, 400.0), st.sampled_from(["GT_StpMtn", "GT_EStpMtn"])), max_size=6),
     stepped=st.booleans(),

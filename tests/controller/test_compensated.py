@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 import shapely
 from compensating import LINUXCNC, TEXTBOOK, To, area_mm2, drawn_mm, moves_mm, told
+from depth import examples
 from drawings import Line
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -430,7 +431,7 @@ def programs(draw: st.DrawFn) -> Toolpath:
     return told(pen.path(), side, by, rules)
 
 
-@settings(max_examples=150)
+@settings(max_examples=examples(150))
 @given(programs())
 def test_any_program_has_a_path_of_one_piece(toolpath: Toolpath) -> None:
     made = compensated(toolpath)

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 
 import numpy as np
 import pytest
+from depth import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from paths import Pen
@@ -153,7 +154,7 @@ def test_command_is_half_a_pulse_from_the_plan_at_most(axes: int) -> None:
             assert np.abs(np.array(motion.at_um) - place).max() <= 0.5 + 5e-7 + 1e-12  # µm
 
 
-@settings(max_examples=30)
+@settings(max_examples=examples(30))
 @given(st.lists(st.tuples(st.integers(-99, 99), st.integers(-99, 99), st.booleans()), min_size=1, max_size=9))
 def test_pulses_add_up_to_the_planned_end(ends: list[tuple[int, int, bool]]) -> None:
     pen = Pen()

@@ -6,6 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from depth import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from plain import PlainBlock, plain_steps
@@ -65,7 +66,7 @@ fractions = st.lists(st.floats(0.0, 1.0), max_size=12)
 
 
 @pytest.mark.parametrize("make", MAKERS.values(), ids=MAKERS.keys())
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(40), deadline=None)
 @given(program=programs, asked=fractions)
 def test_portions_change_no_pulse(
     make: Callable[[Toolpath, Plan], Interpolator], program: list[PlainBlock], asked: list[float]
@@ -78,7 +79,7 @@ def test_portions_change_no_pulse(
         assert np.array_equal(column, same)
 
 
-@settings(max_examples=40)
+@settings(max_examples=examples(40))
 @given(program=programs)
 def test_steps_come_when_the_plan_reaches_their_feet(program: list[PlainBlock]) -> None:
     toolpath = toolpath_of(program)
@@ -98,7 +99,7 @@ def test_steps_come_when_the_plan_reaches_their_feet(program: list[PlainBlock]) 
     assert np.diff(pulses.t_s).min(initial=0.0) >= 0.0
 
 
-@settings(max_examples=60)
+@settings(max_examples=examples(60))
 @given(programs, st.lists(st.floats(0.0, 1.0), min_size=1, max_size=4))
 def test_a_stop_and_a_new_plan_lose_no_step(program: list[PlainBlock], stops: list[float]) -> None:
     toolpath = toolpath_of(program)

@@ -10,7 +10,7 @@ import pytest
 import shapely
 import sound_offset
 from chunked import chunks_of
-from depth import cases
+from depth import cases, examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from paths import Pen, flipped
@@ -529,7 +529,7 @@ def chains(draw: st.DrawFn) -> Toolpath:
     return pen.path()
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=examples(300), deadline=None)
 @given(chains(), st.sampled_from((1.0, 20.0, 100.0, 5000.0)), st.sampled_from(list(Side)), st.booleans(), st.data())
 def test_whatever_is_drawn_gives_a_path(
     toolpath: Toolpath, offset: float, side: Side, closed: bool, data: st.DataObject

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 import shapely
 from capsules import CHORD_UM, contour_of, flattened, judged
+from depth import examples
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from paths import Pen, flipped
@@ -158,7 +159,7 @@ def _bulge_to(pen: Pen, x: float, y: float, sweep: float) -> None:
     pen.x, pen.y = x, y
 
 
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=examples(80), deadline=None)
 @given(bulging(), st.floats(1.0, 400.0), st.booleans())
 def test_as_well_on_any_ring_of_lines_and_arcs(contour: Curves, f: float, inside: bool) -> None:
     side = Side.LEFT if inside else Side.RIGHT

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from chunked import chunks_of
+from depth import examples
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from long_steps import SEED, run
@@ -42,7 +43,7 @@ def test_round_hole_closes_to_the_step() -> None:
     assert steps.corner_um[-1].tolist() == [0, 0]
 
 
-@settings(max_examples=400)
+@settings(max_examples=examples(400))
 @given(lines())
 @example(PlainBlock(0, 9, 9, "Y", "L", 1))  # the neighbour's label on an axis: one stray step
 @example(PlainBlock(7, 7, 7, "Y", "L", 1))
@@ -51,7 +52,7 @@ def test_lines_step_as_the_plain_walk(block: PlainBlock) -> None:
     assert places(steps_of(block)) == plain_steps(block)
 
 
-@settings(max_examples=400)
+@settings(max_examples=examples(400))
 @given(arcs())
 @example(PlainBlock(1, 1, 40, "X", "NR", 1))
 @example(PlainBlock(2, 0, 40, "Y", "SR", 4))
@@ -61,7 +62,7 @@ def test_arcs_step_as_the_plain_walk(block: PlainBlock) -> None:
     assert places(steps_of(block)) == plain_steps(block)
 
 
-@settings(max_examples=50)
+@settings(max_examples=examples(50))
 @given(programs, st.integers(20, 200))
 def test_programs_step_block_after_block_in_any_chunks(program: list, size: int) -> None:
     expected, x, y = [], 0, 0
@@ -101,7 +102,7 @@ def test_path_length_never_falls_and_each_step_is_one_axis(program: list) -> Non
     assert set(moves.tolist()) == {1}
 
 
-@settings(max_examples=60)
+@settings(max_examples=examples(60))
 @given(st.integers(2_000, 20_000), st.floats(0.0, 6.28), st.floats(0.05, 6.2), st.sampled_from([1, -1]))
 def test_step_deviates_no_more_than_a_micrometre_from_its_circle(
     radius: int, start: float, sweep: float, turn: int

@@ -8,3 +8,8 @@ DEEP = bool(os.environ.get("DRYCUT_DEEP"))
 def cases(suite: int, deep: int) -> range:
     """Numbers of the cases, which seed them: the first ones in the suite, all in ``make deep``."""
     return range(deep if DEEP else suite)
+
+
+def examples(deep: int = 100) -> int:
+    """How many examples a property is tried on that `hypothesis` makes: a third of them in the suite."""
+    return deep if DEEP else max(deep // 3, 5)

@@ -6,7 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from depth import cases
+from depth import cases, examples
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from runs import plain_scenario
@@ -203,7 +203,7 @@ def first(place: Floats, pieces: object) -> tuple[Touch | None, Floats]:
     )
 
 
-@settings(max_examples=100)
+@settings(max_examples=examples(100))
 @given(outlines(), ways())
 def test_wire_touches_first_where_a_plain_walk_says(clamp: Outline, way: Floats) -> None:
     touch, before = first(way, grown(clamp, RADIUS_UM))

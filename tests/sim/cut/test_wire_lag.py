@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from depth import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from paths import Pen
@@ -93,7 +94,7 @@ def test_a_circle_smaller_than_the_lag_is_not_cut(radius: float, lag: float) -> 
 @given(
     turn=st.floats(1.0, 179.0), lag=st.floats(1.0, 200.0), spacing=st.floats(0.5, 60.0), left=st.sampled_from([1, -1])
 )
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60), deadline=None)
 def test_a_corner_is_the_tractrix_of_its_closed_form(turn: float, lag: float, spacing: float, left: int) -> None:
     angle = math.radians(turn)
     toward = np.array([math.cos(angle), left * math.sin(angle)])
@@ -141,7 +142,7 @@ def walks(draw: st.DrawFn) -> tuple[np.ndarray, np.ndarray]:
 
 
 @given(walk=walks(), lag=st.floats(2.0, 60.0))
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=examples(80), deadline=None)
 def test_any_way_is_that_of_a_plain_loop(walk: tuple[np.ndarray, np.ndarray], lag: float) -> None:
     guides, row = walk
     cuts = LINE_AND_JUMP.kind[row] != CurveKind.JUMP
@@ -175,7 +176,7 @@ def test_a_long_way_in_stretches_is_one_way() -> None:
 
 
 @given(lag=st.floats(1.0, 100.0), parts=st.integers(2, 9))
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=examples(30), deadline=None)
 def test_samples_between_change_nothing(lag: float, parts: int) -> None:
     coarse = np.random.default_rng(parts).uniform(-50.0, 50.0, (40, 2))
     share = np.arange(parts)[:, None] / parts

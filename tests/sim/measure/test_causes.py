@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from depth import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from paths import Pen
@@ -72,7 +73,7 @@ def test_a_place_that_trails_round_a_corner_counts_on_the_block_before(turn_deg:
 
 
 @given(turn_deg=st.floats(91.0, 179.9), lag=st.floats(2.0, 200.0))
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(40), deadline=None)
 def test_a_wire_that_stands_in_its_own_slot_counts_on_the_block_that_it_stands_in(turn_deg: float, lag: float) -> None:
     """The wire dragged by a rope past a sharp point, beside its distance from both lines (150°, 35 µm: 11.31 µm)."""
     angle = math.radians(turn_deg)
@@ -117,7 +118,7 @@ def test_a_table_that_stays_behind_for_good_is_measured_in_bounded_work() -> Non
 
 
 @given(seed=st.integers(0, 2**32 - 1))
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=examples(30), deadline=None)
 def test_samples_are_summed_as_the_meter_of_steps_does(seed: int) -> None:
     rng = np.random.default_rng(seed)
     path = Pen(0.0, 0.0).to(400.0, 100.0).arc(400.0, 300.0, 2.5).to(-100.0, 200.0).path()
@@ -208,7 +209,7 @@ def chords_away(path: Toolpath, plan: Plan, period: float) -> float:
     period=st.floats(0.5, 30.0),
     first=st.floats(200.0, 300.0),
 )
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60), deadline=None)
 def test_a_corner_between_two_periods_is_cut_off_by_the_closed_form(turn: float, period: float, first: float) -> None:
     angle = math.radians(turn)
     path = Pen(0.0, 0.0).to(first, 0.0).to(first + 300.0 * math.cos(angle), 300.0 * math.sin(angle)).path()

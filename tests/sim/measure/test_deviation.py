@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from depth import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from plain_deviation import plain_deviation
@@ -32,7 +33,7 @@ def nearest(toolpath: Toolpath, rows: set[int], place: tuple[float, float]) -> f
     return float(np.hypot(*(spots - np.array(place)).T).min())
 
 
-@settings(max_examples=80)
+@settings(max_examples=examples(80))
 @given(programs, st.data())
 def test_distance_lies_between_nearest_neighbour_and_own_block(program: list, data: st.DataObject) -> None:
     toolpath = parse_program(program_text(program)).toolpath
@@ -67,7 +68,7 @@ def test_distance_in_plain_cases(toolpath: Toolpath, row: int, place: tuple[floa
     assert away_from_path(curve_rows(toolpath), row, *place) == pytest.approx(expected)
 
 
-@settings(max_examples=50)
+@settings(max_examples=examples(50))
 @given(st.lists(st.floats(0.0, 1000.0), min_size=1, max_size=200), st.integers(1, 50))
 def test_meter_sums_up_as_numpy_does(offsets: list[float], size: int) -> None:
     meter = DeviationMeter(CORNER)
@@ -100,7 +101,7 @@ def test_past_the_end_of_an_arc_the_next_block_counts() -> None:
     assert away_from_path(blocks, 1, 98.0, 99.0) == pytest.approx(abs(math.hypot(98.0, 1.0) - 100.0))
 
 
-@settings(max_examples=60)
+@settings(max_examples=examples(60))
 @given(programs, st.integers(0, 2**32 - 1))
 def test_the_meter_measures_as_whole_arrays_do(program: list, seed: int) -> None:
     toolpath = parse_program(program_text(program)).toolpath

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from browser import Browsers, Pages
+from depth import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from places import ROOT
@@ -46,7 +47,7 @@ def back(page: "Page", values: list[Any]) -> tuple[Any, bool]:
     return json.loads(found, parse_int=float), isinstance(handed, dict)  # JavaScript writes 2.0**60 without a point
 
 
-@settings(max_examples=60)
+@settings(max_examples=examples(60))
 @given(VALUES)
 def test_every_value_comes_back(page: "Page", values: list[Any]) -> None:
     found, was_packed = back(page, values)

@@ -4,6 +4,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from depth import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from places import SCENARIOS
@@ -41,7 +42,7 @@ def plainly(t_s: Floats, edges_s: Floats, values: Floats) -> Envelope:
     return Envelope(np.array(low), np.array(high), np.array(mean))
 
 
-@settings(max_examples=30)
+@settings(max_examples=examples(30))
 @given(st.integers(0, 2**32 - 1), st.integers(1, 120))
 def test_every_tick_counts_in_each_bin_that_it_covers_for_as_long_as_it_does(seed: int, n: int) -> None:
     rng = np.random.default_rng(seed)
