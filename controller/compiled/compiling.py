@@ -1,4 +1,4 @@
-"""Who is to be told that loops have to be compiled; known before numba is imported, which takes a fifth of a second."""
+"""Who is to be told that loops have to be compiled; known before numba is imported, which takes half a second."""
 
 from collections.abc import Callable
 from typing import Final

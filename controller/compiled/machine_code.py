@@ -1,100 +1,214 @@
-"""Machine code of compiled loops, by numba: loaded from disk, or made and kept there."""
+"""Machine code of loops: how it is loaded, and how it is called.
 
-import os
+The code is an object file in memory, which LLVM links into the process. It is called as numba calls it within its own
+code (`numba.core.callconv.CPUCallConv`): a status comes back; what the loop gives is written where the first argument
+points, and the second would point to an exception. Then come the arguments, taken apart: of a tuple its fields, of an
+array two owners, which are none here, its number of items and the bytes of one, where it begins, its lengths and its
+strides (`numba.core.datamodel.models.ArrayModel`).
+"""
+
+import ctypes
+import signal
+import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from pathlib import Path
-from typing import Any, Final, Protocol, get_type_hints
+from functools import cache
+from typing import Any, Final, NamedTuple, get_args, get_type_hints
 
-import numba
+import llvmlite.binding as llvm
 import numpy as np
-import platformdirs
-from numba import types
-from numba.core import config, event
-from numba.extending import typeof_impl
-from numpy.typing import NDArray
 
-from controller.compiled.compiling import compiling
-
-_COMPILING: Final = "numba:compile"  # an event of numba, where no code on disk fits
-_OPTIONS: Final = {"nogil": True, "error_model": "numpy"}
-_OF_TUPLES: Final = {"forceinline": True, "_nrt": False}
-_TYPES: Final[dict[Any, types.Type]] = {
-    float: types.float64,
-    int: types.int64,
-    bool: types.boolean,
-    NDArray[np.float64]: types.float64[::1],
-    NDArray[np.int64]: types.int64[::1],
-}
+_NUMBERS: Final = {"float64": ctypes.c_double, "int64": ctypes.c_int64, "bool": ctypes.c_bool}
+_READ: Final[dict[str, Callable[[Any], Any]]] = {"float64": float, "int64": int, "bool": bool}
+_DONE: Final = frozenset({0, -2})  # `RETCODE_OK`, and `RETCODE_NONE` of a loop that gives nothing
 
 
-class Source(Protocol):
-    """What a loop is made of, as `controller.compiled.loops.Loop` has it."""
+class Shape(NamedTuple):
+    """What an argument or a result is.
 
-    function: Callable[..., Any]
-    signature: str
-    tuples: tuple[type, ...]
-    digest: str
+    Attributes
+    ----------
+    kind
+        ``float64``, ``int64``, ``bool``, ``none``, ``array`` or ``tuple``.
+    name
+        Of an array: numpy's name of what it holds.
+    dimensions
+        Of an array.
+    fields
+        Of a tuple.
+    """
 
-    def loaded(self) -> Callable[..., Any]:
-        """Its machine code."""
-
-
-def code_of(loop: Source) -> Callable[..., Any]:
-    """Machine code of a loop for its one signature."""
-    typed = _signature(loop.signature, loop.tuples)
-    options = _OPTIONS | _OF_TUPLES if loop.tuples else _OPTIONS
-    with _keeping(loop.digest):
-        try:
-            code: Callable[..., Any] = numba.njit(typed, cache=True, **options)(loop.function)
-        except RuntimeError:  # numba found no place to keep it
-            code = numba.njit(typed, **options)(loop.function)
-    return code
+    kind: str
+    name: str = ""
+    dimensions: int = 0
+    fields: "tuple[Shape, ...]" = ()
 
 
-def let_call_one_another(kind: type[Source]) -> None:
-    """Let loops of a class be called by others; numba takes their machine code for them."""
-    typeof_impl.register(kind)(_type_of_loop)
+class MachineCode(NamedTuple):
+    """A compiled loop.
+
+    Attributes
+    ----------
+    symbol
+        Name of its function in the object file.
+    takes, gives
+        Its arguments and its result.
+    object_code
+        The object file, of the machine that it was made on.
+    """
+
+    symbol: str
+    takes: tuple[Shape, ...]
+    gives: Shape
+    object_code: bytes
 
 
-def _type_of_loop(loop: Source, context: object) -> types.Type:
-    return types.Dispatcher(loop.loaded())
+@cache
+def target_machine() -> llvm.TargetMachine:
+    """The machine that runs, as LLVM makes code for it."""
+    llvm.initialize_native_target()
+    llvm.initialize_native_asmprinter()
+    cpu, features = llvm.get_host_cpu_name(), llvm.get_host_cpu_features().flatten()
+    return llvm.Target.from_default_triple().create_target_machine(cpu, features, opt=3, jit=True)
 
 
-def _signature(text: str, tuples: tuple[type, ...]) -> Any:
-    """A signature as numba has it; numba itself reads a text so, but knows no tuples of others."""
-    return eval(text, {}, vars(types) | {tuple_.__name__: _tuple_type(tuple_) for tuple_ in tuples})  # noqa: S307
+@cache
+def machine() -> str:
+    """What code on disk depends on: the processor, and the release of LLVM that comes with each of numba."""
+    features = llvm.get_host_cpu_features().flatten()
+    return f"{llvm.get_default_triple()} {llvm.get_host_cpu_name()} {features} {llvm.llvm_version_info}"
 
 
-def _tuple_type(each: type) -> types.Type:
-    """Type of a NamedTuple; numba has one of its own for those with fields that are all alike."""
-    fields = tuple(_TYPES[of] if of in _TYPES else _tuple_type(of) for of in get_type_hints(each).values())
-    if len(set(fields)) == 1:
-        return types.NamedUniTuple(fields[0], len(fields), each)
-    return types.NamedTuple(fields, each)
+def function_of(code: MachineCode, result: Any) -> Callable[..., Any]:
+    """The function of machine code, whose annotated `result` names the classes of its tuples.
+
+    It raises TypeError for arguments that are not what it takes. RuntimeError where LLVM cannot link the code.
+    """
+    takers = [_taker(shape) for shape in code.takes]
+    types = [part for shape in code.takes for part in _parts(shape)]
+    native = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_void_p, *types)(_address(code))
+    place_of, read = _place(code.gives), _reader(code.gives, result)
+
+    def function(*values: Any) -> Any:
+        if len(values) != len(takers):
+            raise TypeError(f"{len(takers)} arguments are taken, not {len(values)}")
+        parts: list[Any] = []
+        for take, value in zip(takers, values, strict=True):
+            take(value, parts)
+        result, failed = place_of(), ctypes.c_void_p()
+        status = native(ctypes.addressof(result), ctypes.addressof(failed), *parts)
+        if status not in _DONE:
+            raise RuntimeError(f"{code.symbol} ended with status {status}")
+        return read(result)
+
+    return function
 
 
-class _Started(event.Listener):  # type: ignore[misc]  # numba has no types
-    """Tells that something has started."""
-
-    def on_start(self, event: Any) -> None:
-        """It has started."""
-        compiling()
-
-    def on_end(self, event: Any) -> None:
-        """It has ended."""
+_linked: Final[list[Any]] = []  # code goes with the objects that LLVM gives for it
+_linking: Final = threading.Lock()
 
 
-event.register(_COMPILING, _Started())
+@cache
+def _linker() -> Any:
+    return llvm.create_lljit_compiler(target_machine())
+
+
+def _address(code: MachineCode) -> int:
+    """Where the function of machine code begins, once linked. RuntimeError where it cannot be."""
+    with _linking, _without_signals():
+        library = llvm.JITLibraryBuilder().add_object_img(code.object_code).export_symbol(code.symbol)
+        linked = library.add_current_process().link(_linker(), f"loop {len(_linked)}")
+        _linked.append(linked)
+        return int(linked[code.symbol])
 
 
 @contextmanager
-def _keeping(digest: str) -> Iterator[None]:
-    """Let numba keep what is compiled meanwhile in a folder of these sources."""
-    own = config.CACHE_DIR
-    folder = Path(own) if own else Path(platformdirs.user_cache_dir("drycut", appauthor=False)) / "loops"
-    config.CACHE_DIR = os.fspath(folder / digest)
+def _without_signals() -> Iterator[None]:
+    """Let signals wait: an interrupt while LLVM links code ends in a crash."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGTERM})
     try:
         yield
     finally:
-        config.CACHE_DIR = own
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def _parts(shape: Shape) -> Iterator[Any]:
+    """Types of the parts that an argument is taken apart into."""
+    if shape.kind == "tuple":
+        for field in shape.fields:
+            yield from _parts(field)
+    elif shape.kind == "array":
+        yield from (ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int64, ctypes.c_int64, ctypes.c_void_p)
+        yield from [ctypes.c_int64] * (2 * shape.dimensions)
+    else:
+        yield _NUMBERS[shape.kind]
+
+
+def _taker(shape: Shape) -> Callable[[Any, list[Any]], None]:
+    """What takes an argument apart and adds its parts to a list."""
+    if shape.kind == "tuple":
+        return _tuple_taker([_taker(field) for field in shape.fields])
+    if shape.kind == "array":
+        return _array_taker(np.dtype(shape.name), shape.dimensions)
+    read = _READ[shape.kind]
+    return lambda value, parts: parts.append(read(value))
+
+
+def _tuple_taker(takers: list[Callable[[Any, list[Any]], None]]) -> Callable[[Any, list[Any]], None]:
+    def take(value: Any, parts: list[Any]) -> None:
+        if len(value) != len(takers):
+            raise TypeError(f"a tuple of {len(takers)} is taken, not of {len(value)}")
+        for each, field in zip(takers, value, strict=True):
+            each(field, parts)
+
+    return take
+
+
+def _array_taker(dtype: "np.dtype[Any]", dimensions: int) -> Callable[[Any, list[Any]], None]:
+    def take(value: Any, parts: list[Any]) -> None:
+        if not (isinstance(value, np.ndarray) and value.dtype == dtype and value.ndim == dimensions):
+            raise TypeError(f"an array of {dtype} in {dimensions} dimensions is taken, not {_named(value)}")
+        if not value.flags.c_contiguous:
+            raise TypeError("an array without gaps is taken, in the order of its rows")
+        begin = value.__array_interface__["data"][0]
+        parts += (None, None, value.size, value.itemsize, begin, *value.shape, *value.strides)
+
+    return take
+
+
+def _named(value: object) -> str:
+    return f"{value.dtype} in {value.ndim}" if isinstance(value, np.ndarray) else type(value).__name__
+
+
+def _place(shape: Shape) -> Any:
+    """The type of where a result is written."""
+    if shape.kind == "tuple":
+        fields = [(f"field{at}", _place(field)) for at, field in enumerate(shape.fields)]
+        return type("Place", (ctypes.Structure,), {"_fields_": fields})
+    return _NUMBERS.get(shape.kind, ctypes.c_void_p)
+
+
+def _reader(shape: Shape, result: Any) -> Callable[[Any], Any]:
+    """What reads a result from where it was written."""
+    if shape.kind == "tuple":
+        return _tuple_reader(shape, result)
+    return (lambda place: None) if shape.kind == "none" else (lambda place: place.value)
+
+
+def _tuple_reader(shape: Shape, result: Any) -> Callable[[Any], Any]:
+    is_named = hasattr(result, "_fields")
+    annotated = get_type_hints(result).values() if is_named else get_args(result)
+    names = [f"field{at}" for at in range(len(shape.fields))]
+    inner = [
+        _reader(field, of) if field.kind == "tuple" else None for field, of in zip(shape.fields, annotated, strict=True)
+    ]
+    whole = result._make if is_named else tuple
+
+    def read(place: Any) -> Any:
+        values = (getattr(place, name) for name in names)  # numbers come as Python's own
+        return whole(value if each is None else each(value) for each, value in zip(inner, values, strict=True))
+
+    return read

@@ -53,7 +53,7 @@ def test_a_click_on_it_leads_to_its_first_call(open_page: OpenPage) -> None:
     page = opened(open_page)
     page.get_by_text("N220 G03 X35000 Y0 I-5000 J0").click()
     assert page.evaluate("drycut.player.state().block") == SECOND
-    page.locator("#program .now").hover()
+    page.locator("#program .now").filter(has_text="N220").hover()  # marked in the next frame
     assert page.locator("#tip").inner_text().startswith("Block N220 (6 of 10) · arc, counter-clockwise")
 
 

@@ -10,14 +10,15 @@ At its ends, two discs side by side leave a notch that a band fills: of places n
 it is (1 µm)² / 2r deep, 0.005 µm of a wire that cuts 0.2 mm wide.
 """
 
-from typing import Final
+import math
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 import shapely
 
 from controller.compiled.loops import compiled
 from parser.geometry.curves import Bools, Floats, Ints
-from sim.cut.kerf.stars import SIMPLER_UM, thin
+from sim.cut.kerf.stars import SIMPLER_UM, thin, thinning_room
 from sim.cut.kerf.ways import spacing_um
 from sim.cut.regions import Regions
 
@@ -51,10 +52,65 @@ def bands(place_um: Floats, bounds: Ints, offset_um: float) -> Regions:
     `bounds` (s, 2) are the indices of the places (m, 2) at which they begin, and one past their last.
     """
     places, spacing = np.ascontiguousarray(place_um), spacing_um(offset_um)
-    rings = [_band(places[low:high], offset_um, spacing) for low, high in bounds.tolist()]
     made: Regions = np.empty(len(bounds), dtype=np.object_)
-    made[:] = [shapely.Polygon(ring) for ring in rings]
+    if len(bounds):
+        quarter = max(math.ceil(0.5 * math.pi * offset_um / spacing), 1)
+        room = _room(int(np.diff(bounds).max()), quarter)
+        for at, (low, high) in enumerate(bounds.tolist()):
+            corners = _band(places[low:high], offset_um, spacing, quarter, (*room,))
+            made[at] = shapely.Polygon(room.corner[:corners])
     return made
+
+
+class _Room(NamedTuple):
+    """Room for one band, of m places at most, and of k stations.
+
+    Attributes
+    ----------
+    way
+        (m, 2) its places, along and across.
+    abreast, station
+        (k,) where the border is worked out along the way: abreast of places and in notches, then round the ends too.
+    between, off
+        (k,) places between stations, and how far the border is from the chord there at most.
+    border, other
+        (k, 2) lowest and highest border at stations, and at places between them.
+    ring, corner
+        (2 k + 2, 2) corners of the band, along and across, and (2 k + 3, 2) those that are kept, as places.
+    is_kept, waiting
+        As `thin` has them, of 2 k + 2 corners.
+    """
+
+    way: Floats
+    abreast: Floats
+    station: Floats
+    between: Floats
+    off: Floats
+    border: Floats
+    other: Floats
+    ring: Floats
+    corner: Floats
+    is_kept: Bools
+    waiting: Ints
+
+
+def _room(places: int, quarter: int) -> _Room:
+    """Room for a band of so many places, whose ends have so many stations a quarter."""
+    k = places + _IN_A_NOTCH * (places - 1) + 2 * quarter
+    is_kept, waiting = thinning_room(2 * k + 2)
+    return _Room(
+        way=np.empty((places, 2)),
+        abreast=np.empty(k),
+        station=np.empty(k),
+        between=np.empty(k),
+        off=np.empty(k),
+        border=np.empty((k, 2)),
+        other=np.empty((k, 2)),
+        ring=np.empty((2 * k + 2, 2)),
+        corner=np.empty((2 * k + 3, 2)),
+        is_kept=is_kept,
+        waiting=waiting,
+    )
 
 
 @compiled("Tuple((f8, f8))(f8[:,::1], i8, i8, f8, f8)")
@@ -70,15 +126,17 @@ def _section(way: Floats, low: int, high: int, offset: float, at: float) -> tupl
     return lowest, highest
 
 
-@compiled("f8[:,::1](f8[:,::1], f8[::1], f8, f8)")
-def _sections(way: Floats, stations: Floats, offset: float, window: float) -> Floats:
-    """Lowest and highest border (k, 2) at stations in order, of discs about places (u, v) that go back by a step.
+@compiled("void(f8[:,::1], f8[::1], f8, f8, f8[:,::1])")
+def _sections(way: Floats, stations: Floats, offset: float, window: float, border: Floats) -> None:
+    """Fill in lowest and highest border (k, 2) at stations in order, of discs about places (u, v).
 
-    Between the ends of the way no disc farther off than `window` is the highest or lowest.
+    The places go back along the way by a step. Between its ends no disc farther off than `window` is the highest or
+    lowest.
     """
     m = way.shape[0]
-    begin, end = way[:, 0].min(), way[:, 0].max()
-    border = np.empty((len(stations), 2))
+    begin, end = np.inf, -np.inf
+    for p in range(m):
+        begin, end = min(begin, way[p, 0]), max(end, way[p, 0])
     low = 0
     for k in range(len(stations)):
         at = stations[k]
@@ -90,72 +148,124 @@ def _sections(way: Floats, stations: Floats, offset: float, window: float) -> Fl
         while high < m and way[high, 0] <= at + reach + _BACK_UM:
             high += 1
         border[k, 0], border[k, 1] = _section(way, 0 if at < begin else low, high, offset, at)
-    return border
 
 
-@compiled("f8[::1](f8[:,::1], f8[::1], f8, f8)")
-def _with_notches(way: Floats, stations: Floats, offset: float, window: float) -> Floats:
-    """Stations, and more of them where the border between two leaves their chord by more than even discs do.
+_COLUMNS: Final = "f8[:,::1], f8[::1], f8[::1], f8[::1], f8[::1], f8[:,::1], f8[:,::1], f8[:,::1], f8[:,::1]"
+_ROOM: Final = f"Tuple(({_COLUMNS}, b1[::1], i8[:,::1]))"
 
-    There it has a notch between discs that lie apart, as those between them are lower.
+
+@compiled("i8(f8[:,::1], f8[::1], UniTuple(f8, 2), Tuple((f8[::1], f8[::1])), Tuple((f8[:,::1], f8[:,::1])), f8[::1])")
+def _with_notches(  # noqa: PLR0913, PLR0917 - a compiled loop takes the columns that it fills one by one
+    way: Floats,
+    sorted_: Floats,
+    reach: tuple[float, float],
+    columns: tuple[Floats, Floats],
+    borders: tuple[Floats, Floats],
+    stations: Floats,
+) -> int:
+    """Fill in the stations: those that are sorted, and more where the border between two leaves their chord.
+
+    There it does so by more than even discs do: it has a notch between discs that lie apart, as those between them are
+    lower. `reach` are offset and window. Gives the number of stations.
     """
-    gaps = stations[1:] - stations[:-1]
-    border = _sections(way, stations, offset, window)
-    off = np.zeros(len(gaps))
+    (offset, window), (between, off), (border, other) = reach, columns, borders
+    gaps = len(sorted_) - 1
+    _sections(way, sorted_, offset, window, border)
+    for k in range(gaps):
+        off[k] = 0.0
     for share in (0.25, 0.5, 0.75):
-        between = _sections(way, stations[:-1] + share * gaps, offset, window)
-        for k in range(len(gaps)):
+        for k in range(gaps):
+            between[k] = sorted_[k] + share * (sorted_[k + 1] - sorted_[k])
+        _sections(way, between[:gaps], offset, window, other)
+        for k in range(gaps):
             for side in range(2):
                 chord = border[k, side] + share * (border[k + 1, side] - border[k, side])
-                off[k] = max(off[k], abs(between[k, side] - chord))
-    found = np.empty(len(stations) + _IN_A_NOTCH * len(gaps))
+                off[k] = max(off[k], abs(other[k, side] - chord))
     made = 0
-    for k in range(len(stations)):
-        found[made] = stations[k]
+    for k in range(gaps + 1):
+        stations[made] = sorted_[k]
         made += 1
-        if k < len(gaps) and off[k] > gaps[k] * gaps[k] / (8.0 * offset) + 0.5 * SIMPLER_UM:
+        gap = sorted_[k + 1] - sorted_[k] if k < gaps else 0.0
+        if k < gaps and off[k] > gap * gap / (8.0 * offset) + 0.5 * SIMPLER_UM:
             for part in range(1, _IN_A_NOTCH + 1):
-                found[made] = stations[k] + gaps[k] * part / (_IN_A_NOTCH + 1)
+                stations[made] = sorted_[k] + gap * part / (_IN_A_NOTCH + 1)
                 made += 1
-    return found[:made].copy()
+    return made
 
 
-@compiled("f8[:,::1](f8[:,::1], f8, f8)")
-def _band(place: Floats, offset: float, spacing: float) -> Floats:
-    """Corners (k, 2) of the band of the places (m, 2) of one stretch; places along it lie so far apart at most."""
+@compiled("UniTuple(f8, 2)(f8[:,::1], f8[:,::1])")
+def _lay(place: Floats, way: Floats) -> tuple[float, float]:
+    """Fill in places (m, 2) along and across the line from the first to the last; gives its direction."""
     m = place.shape[0]
     by_x, by_y = place[m - 1, 0] - place[0, 0], place[m - 1, 1] - place[0, 1]
     length = np.sqrt(by_x * by_x + by_y * by_y)
     toward_x, toward_y = by_x / length, by_y / length
-    way = np.empty((m, 2))
     for p in range(m):
         out_x, out_y = place[p, 0] - place[0, 0], place[p, 1] - place[0, 1]
         way[p, 0] = out_x * toward_x + out_y * toward_y
         way[p, 1] = toward_x * out_y - toward_y * out_x
-    begin, end = way[:, 0].argmin(), way[:, 0].argmax()
-    # Farther along than this no disc is the highest or lowest: the nearest one, a spacing away, reaches farther.
-    near = offset - np.sqrt(max(offset * offset - spacing * spacing, 0.0)) + way[:, 1].max() - way[:, 1].min()
-    window = np.sqrt(offset * offset - max(offset - near, 0.0) ** 2) + spacing
+    return toward_x, toward_y
+
+
+@compiled("void(f8[:,::1], f8[::1])")
+def _sort_along(way: Floats, sorted_: Floats) -> None:
+    """Fill in where places (m, 2) lie along the way, in order: they are so already but for steps back."""
+    for p in range(way.shape[0]):
+        at = p
+        while at > 0 and sorted_[at - 1] > way[p, 0]:
+            sorted_[at] = sorted_[at - 1]
+            at -= 1
+        sorted_[at] = way[p, 0]
+
+
+@compiled("f8(f8[:,::1], f8, f8)")
+def _window(way: Floats, offset: float, spacing: float) -> float:
+    """How far along the way a disc may be the highest or lowest: farther off, the nearest one reaches farther."""
+    lowest, highest = np.inf, -np.inf
+    for p in range(way.shape[0]):
+        lowest, highest = min(lowest, way[p, 1]), max(highest, way[p, 1])
+    near = offset - np.sqrt(max(offset * offset - spacing * spacing, 0.0)) + highest - lowest
+    return float(np.sqrt(offset * offset - max(offset - near, 0.0) ** 2) + spacing)
+
+
+@compiled(f"i8(f8[:,::1], f8, f8, i8, {_ROOM})")
+def _band(place: Floats, offset: float, spacing: float, quarter: int, room: tuple[Any, ...]) -> int:
+    """Fill in the corners of the band of the places (m, 2) of one stretch, as a closed ring; gives their number.
+
+    Places along it lie so far apart at most; `room` is that of `_Room`.
+    """
+    way, abreast, station, between, off, border, other, ring, corner, is_kept, waiting = room
+    m = place.shape[0]
+    way = way[:m]
+    toward_x, toward_y = _lay(place, way)
+    begin, end = 0, 0
+    for p in range(m):
+        begin = p if way[p, 0] < way[begin, 0] else begin
+        end = p if way[p, 0] > way[end, 0] else end
+    window = _window(way, offset, spacing)
     # Abreast of a place the border lies on its disc: between two such, a chord leaves out no scallop between discs.
-    abreast = _with_notches(way, np.sort(way[:, 0]), offset, window)
-    quarter = int(np.ceil(0.5 * np.pi * offset / spacing))
-    round_end = offset * np.cos(0.5 * np.pi * np.arange(1, quarter) / quarter)
-    stations = np.concatenate((way[begin, 0] - round_end, abreast, way[end, 0] + round_end[::-1]))
-    border, n = _sections(way, stations, offset, window), len(stations)
-    ring = np.empty((2 * n + 2, 2))
+    _sort_along(way, station[:m])
+    number = _with_notches(way, station[:m], (offset, window), (between, off), (border, other), abreast)
+    ends = quarter - 1
+    n = number + 2 * ends
+    for k in range(ends):
+        out = offset * np.cos(0.5 * np.pi * (k + 1) / quarter)
+        station[k], station[n - 1 - k] = way[begin, 0] - out, way[end, 0] + out
+    for k in range(number):
+        station[ends + k] = abreast[k]
+    _sections(way, station[:n], offset, window, border)
     ring[0, 0], ring[0, 1] = way[begin, 0] - offset, way[begin, 1]
     ring[n + 1, 0], ring[n + 1, 1] = way[end, 0] + offset, way[end, 1]
     for k in range(n):
-        ring[1 + k, 0], ring[1 + k, 1] = stations[k], border[k, 0]
-        ring[2 * n + 1 - k, 0], ring[2 * n + 1 - k, 1] = stations[k], border[k, 1]
-    is_kept = np.empty(len(ring), dtype=np.bool_)
-    thin(ring, SIMPLER_UM, is_kept)
-    corners = np.empty((is_kept.sum() + 1, 2))
+        ring[1 + k, 0], ring[1 + k, 1] = station[k], border[k, 0]
+        ring[2 * n + 1 - k, 0], ring[2 * n + 1 - k, 1] = station[k], border[k, 1]
+    corners = 2 * n + 2
+    thin(ring[:corners], SIMPLER_UM, is_kept[:corners], waiting)
     made = 0
-    for k in range(len(ring)):
+    for k in range(corners):
         if is_kept[k]:
-            corners[made, 0] = place[0, 0] + ring[k, 0] * toward_x - ring[k, 1] * toward_y
-            corners[made, 1] = place[0, 1] + ring[k, 0] * toward_y + ring[k, 1] * toward_x
+            corner[made, 0] = place[0, 0] + ring[k, 0] * toward_x - ring[k, 1] * toward_y
+            corner[made, 1] = place[0, 1] + ring[k, 0] * toward_y + ring[k, 1] * toward_x
             made += 1
-    corners[made] = corners[0]
-    return corners
+    corner[made, 0], corner[made, 1] = corner[0, 0], corner[0, 1]
+    return made + 1

@@ -27,7 +27,8 @@ def last_beside(wire_um: Floats, place_um: Floats, within_um: float, alike_um: f
     wire, place = (_cells((each - low) / cell) for each in (wire_um, place_um))
     order = np.argsort(wire, kind="stable")
     sorted_ = np.ascontiguousarray(wire_um[order]), wire[order], order
-    _search(sorted_, (np.ascontiguousarray(place_um), place), (within_um, alike_um), last)
+    ranges = np.zeros((3, 2), dtype=np.int64)
+    _search(sorted_, (np.ascontiguousarray(place_um), place), (within_um, alike_um), ranges, last)
     return last
 
 
@@ -58,13 +59,17 @@ def _nearest_squared(wire_um: Floats, ranges: Ints, x: float, y: float) -> float
     return nearest
 
 
-@compiled("void(Tuple((f8[:,::1], i8[::1], i8[::1])), Tuple((f8[:,::1], i8[::1])), UniTuple(f8, 2), i8[::1])")
+@compiled(
+    "void(Tuple((f8[:,::1], i8[::1], i8[::1])), Tuple((f8[:,::1], i8[::1])), UniTuple(f8, 2), i8[:,::1], i8[::1])"
+)
 def _search(
-    wire: tuple[Floats, Ints, Ints], places: tuple[Floats, Ints], within: tuple[float, float], last: Ints
+    wire: tuple[Floats, Ints, Ints], places: tuple[Floats, Ints], within: tuple[float, float], ranges: Ints, last: Ints
 ) -> None:
-    """Fill in the last numbers: of the wire, sorted by its cells, and of places with theirs, as wide as `within`."""
+    """Fill in the last numbers: of the wire, sorted by its cells, and of places with theirs, as wide as `within`.
+
+    `ranges` (3, 2) is room for the entries about a place.
+    """
     (wire_um, wire_cell, number), (place_um, place_cell), (within_um, alike_um) = wire, places, within
-    ranges = np.zeros((3, 2), np.int64)
     for at in range(len(place_um)):
         if at == 0 or place_cell[at] != place_cell[at - 1]:
             _about(wire_cell, place_cell[at], ranges)

@@ -49,20 +49,31 @@ def stars(place_um: Floats, bounds: Ints, middle_um: Floats, offset_um: float) -
     return made
 
 
+def _borders(place: Floats, bounds: Ints, middle: Floats, toward: Floats, offset: float) -> tuple[Floats, Ints]:
+    """Corners (c, 2) of the stars of s stretches, each ring closed, and (s + 1,) where each ring begins and ends."""
+    number = toward.shape[1]
+    border, room = np.empty((number, 2)), thinning_room(number)
+    corners, ends = np.empty((len(middle) * (number + 1), 2)), np.zeros(len(middle) + 1, dtype=np.int64)
+    _fill_in_borders((place, bounds, middle), toward, offset, (border, *room), (corners, ends))
+    return corners[: ends[-1]], ends
+
+
 @compiled("void(f8[:,::1], f8[::1], f8[:,::1], f8, f8[:,::1])")
 def _border(place: Floats, middle: Floats, toward: Floats, offset: float, border: Floats) -> None:
     """Fill in the border (k, 2) of the star about its middle (2,) along the rays, `toward` (2, k)."""
     x, y = middle[0], middle[1]
-    reach = np.zeros(toward.shape[1])
+    for k in range(toward.shape[1]):
+        border[k, 0] = 0.0  # how far the star reaches, at first
     for p in range(place.shape[0]):
         out_x, out_y = place[p, 0] - x, place[p, 1] - y
         for k in range(toward.shape[1]):
             across = out_x * toward[1, k] - out_y * toward[0, k]
             half = np.sqrt(max(offset * offset - across * across, 0.0))
-            reach[k] = max(reach[k], out_x * toward[0, k] + out_y * toward[1, k] + half)
+            border[k, 0] = max(border[k, 0], out_x * toward[0, k] + out_y * toward[1, k] + half)
     for k in range(toward.shape[1]):
-        border[k, 0] = x + reach[k] * toward[0, k]
-        border[k, 1] = y + reach[k] * toward[1, k]
+        reach = border[k, 0]
+        border[k, 0] = x + reach * toward[0, k]
+        border[k, 1] = y + reach * toward[1, k]
 
 
 @compiled("Tuple((i8, f8))(f8[:,::1], i8, i8)")
@@ -83,42 +94,51 @@ def _farthest(border: Floats, low: int, high: int) -> tuple[int, float]:
     return at, most
 
 
-@compiled("void(f8[:,::1], f8, b1[::1])")
-def thin(border: Floats, within: float, is_kept: Bools) -> None:
+def thinning_room(corners: int) -> tuple[Bools, Ints]:
+    """Room for `thin` of a ring of so many corners (k,): which of them are kept (k,), and what waits (k + 1, 2)."""
+    return np.empty(corners, dtype=np.bool_), np.empty((corners + 1, 2), dtype=np.int64)
+
+
+@compiled("void(f8[:,::1], f8, b1[::1], i8[:,::1])")
+def thin(border: Floats, within: float, is_kept: Bools, waiting: Ints) -> None:
     """Mark the corners (k, 2) of a ring that are kept, so that no other lies farther off than `within`."""
     past = border.shape[0]
-    is_kept[:] = False
-    is_kept[0] = True
-    stack = np.empty((past + 1, 2), dtype=np.int64)
-    stack[0, 0], stack[0, 1] = 0, past
+    for k in range(past):
+        is_kept[k] = k == 0
+    waiting[0, 0], waiting[0, 1] = 0, past
     number = 1
     while number > 0:
         number -= 1
-        low, high = stack[number, 0], stack[number, 1]
+        low, high = waiting[number, 0], waiting[number, 1]
         at, off = _farthest(border, low, high)
         if off > within * within:
             is_kept[at] = True
-            stack[number, 0], stack[number, 1] = low, at
-            stack[number + 1, 0], stack[number + 1, 1] = at, high
+            waiting[number, 0], waiting[number, 1] = low, at
+            waiting[number + 1, 0], waiting[number + 1, 1] = at, high
             number += 2
 
 
-@compiled("Tuple((f8[:,::1], i8[::1]))(f8[:,::1], i8[:,::1], f8[:,::1], f8[:,::1], f8)")
-def _borders(place: Floats, bounds: Ints, middle: Floats, toward: Floats, offset: float) -> tuple[Floats, Ints]:
-    """Corners (c, 2) of the stars of s stretches, each ring closed, and (s + 1,) where each ring begins and ends."""
-    rays_number = toward.shape[1]
-    border, is_border = np.empty((rays_number, 2)), np.empty(rays_number, dtype=np.bool_)
-    corners = np.empty((middle.shape[0] * (rays_number + 1), 2))
-    ends = np.zeros(middle.shape[0] + 1, dtype=np.int64)
+@compiled(
+    "void(Tuple((f8[:,::1], i8[:,::1], f8[:,::1])), f8[:,::1], f8, Tuple((f8[:,::1], b1[::1], i8[:,::1])),"
+    " Tuple((f8[:,::1], i8[::1])))"
+)
+def _fill_in_borders(
+    stretches: tuple[Floats, Ints, Floats],
+    toward: Floats,
+    offset: float,
+    room: tuple[Floats, Bools, Ints],
+    rings: tuple[Floats, Ints],
+) -> None:
+    """Fill in corners and ends of the rings; `room` is for the border of one star, and to make it thin."""
+    (place, bounds, middle), (border, is_border, waiting), (corners, ends) = stretches, room, rings
     made = 0
     for star in range(middle.shape[0]):
         _border(place[bounds[star, 0] : bounds[star, 1]], middle[star], toward, offset, border)
-        thin(border, SIMPLER_UM, is_border)
-        for k in range(rays_number):
+        thin(border, SIMPLER_UM, is_border, waiting)
+        for k in range(toward.shape[1]):
             if is_border[k]:
-                corners[made] = border[k]
+                corners[made, 0], corners[made, 1] = border[k, 0], border[k, 1]
                 made += 1
-        corners[made] = border[0]
+        corners[made, 0], corners[made, 1] = border[0, 0], border[0, 1]
         made += 1
         ends[star + 1] = made
-    return corners[:made].copy(), ends

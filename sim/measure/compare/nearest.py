@@ -110,11 +110,21 @@ def from_box_squared(box: Floats, x: float, y: float) -> float:
     return float(off_x * off_x + off_y * off_y)
 
 
-@compiled("i8(f8[:,::1], Tuple((f8[:,::1], i8[::1])), f8[:,::1], i8, Tuple((i8[::1], f8[::1])))")
-def search(place_um: Floats, tree: tuple[Floats, Ints], shape: Floats, most: int, found: tuple[Ints, Floats]) -> int:
+@compiled(
+    "i8(f8[:,::1], Tuple((f8[:,::1], i8[::1])), f8[:,::1], i8, Tuple((i8[::1], f8[::1])), Tuple((i8[::1], f8[::1])))"
+)
+def _search(  # noqa: PLR0913, PLR0917 - a compiled loop takes arrays one by one
+    place_um: Floats,
+    tree: tuple[Floats, Ints],
+    shape: Floats,
+    most: int,
+    room: tuple[Ints, Floats],
+    found: tuple[Ints, Floats],
+) -> int:
     """Find the nearest of curves to places (m, 2): fill in its row (m,) and distance (m,), of equally near the first.
 
-    The tree is that of the curves, as a bare tuple, `shape` their rows of numbers. Gives how many curves were looked
+    The tree is that of the curves, as a bare tuple, `shape` their rows of numbers; `room` is for the nodes that wait
+    (`_MOST_WAITING`,) and the squares of their distances. Gives how many curves were looked
     at, or `TOO_MANY` beyond `most`.
 
     A place begins with the curve that was nearest to the one before it; then nodes are opened, the nearer one of two
@@ -122,7 +132,7 @@ def search(place_um: Floats, tree: tuple[Floats, Ints], shape: Floats, most: int
     """
     (box_um, piece_row), (row, distance_um) = tree, found
     leaves, looked_at, best_row = len(box_um) // 2, 0, 0
-    waiting, squared = np.empty(_MOST_WAITING, np.int64), np.empty(_MOST_WAITING)
+    waiting, squared = room
     for at in range(len(place_um)):
         x, y = place_um[at, 0], place_um[at, 1]
         best = distance_from(shape[best_row], x, y, np.inf)
@@ -211,7 +221,8 @@ def nearest(index: Index, place_um: Floats) -> Nearest:
     """
     found = Nearest(np.empty(len(place_um), dtype=np.int64), np.empty(len(place_um)))
     most = MOST_HELD - index.effort.looked_at
-    looked_at = search(np.ascontiguousarray(place_um), (*index.tree,), index.shape, most, (*found,))
+    room = np.empty(_MOST_WAITING, dtype=np.int64), np.empty(_MOST_WAITING)
+    looked_at = _search(np.ascontiguousarray(place_um), (*index.tree,), index.shape, most, room, (*found,))
     if looked_at == TOO_MANY:
         raise DrawingError("too-much-to-compare", most=MOST_HELD)
     index.effort.looked_at += looked_at

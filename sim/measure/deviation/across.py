@@ -77,10 +77,15 @@ def _nearer(  # noqa: PLR0913, PLR0917 - a compiled loop hands over numbers one 
     return best, away
 
 
-@compiled("Tuple((i8[::1], f8[::1]))(f8[:, ::1], i8[::1], i8[::1], f8[::1], f8[::1])")
-def _nearest(blocks: Floats, row: Ints, earliest: Ints, x: Floats, y: Floats) -> tuple[Ints, Floats]:
-    """The nearest of the blocks that may count for each place (m,), and how far it is away, left positive."""
-    nearest, off = np.empty_like(row), np.empty_like(x)
+@compiled("void(f8[:, ::1], Tuple((i8[::1], i8[::1])), Tuple((f8[::1], f8[::1])), i8[::1], f8[::1])")
+def _find_nearest(
+    blocks: Floats, rows: tuple[Ints, Ints], place: tuple[Floats, Floats], nearest: Ints, off: Floats
+) -> None:
+    """Fill in the nearest of the blocks that may count for each place (m,), and how far it is away, left positive.
+
+    `rows` are the block of each place, and the earliest that may count.
+    """
+    (row, earliest), (x, y) = rows, place
     for i in range(len(row)):
         best = row[i]
         away, beyond = away_from(blocks[best], x[i], y[i])
@@ -89,14 +94,15 @@ def _nearest(blocks: Floats, row: Ints, earliest: Ints, x: Floats, y: Floats) ->
         for trailing in range(row[i] - 1, earliest[i] - 1, -1):
             best, away = _nearer(blocks, trailing, x[i], y[i], best, away)
         nearest[i], off[i] = best, away * side_of(blocks[best], x[i], y[i])
-    return nearest, off
 
 
 def _measured(toolpath: Toolpath, trace: Trace, place_um: Floats, along_um: Floats) -> tuple[Ints, Floats]:
     """Rows (m,) that places are measured from, and the distances (m,), left positive."""
     row = trace.row.astype(np.int64)
     x, y = (place_um[:, axis].astype(np.float64) for axis in (0, 1))
-    return _nearest(curve_rows(toolpath), row, _earliest(toolpath, trace, place_um, along_um), x, y)
+    nearest, off = np.empty_like(row), np.empty_like(x)
+    _find_nearest(curve_rows(toolpath), (row, _earliest(toolpath, trace, place_um, along_um)), (x, y), nearest, off)
+    return nearest, off
 
 
 def _earliest(toolpath: Toolpath, trace: Trace, place_um: Floats, along_um: Floats) -> Ints:

@@ -1,17 +1,24 @@
 """Compiled loops are kept on disk, told of when they have to be made, and stale once anything they call changes."""
 
 import ast
+import errno
 import os
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 import pytest
-from places import ROOT
+from places import ROOT, SCENARIOS
 
-from sim.cli.compile import LOOPS
-from sim.make.cam.order.order import neighbours
+from controller.compiled.loops import compiled
+from controller.compiled.machine_code import MachineCode, Shape
+from controller.compiled.store import store, stored
+from parser.geometry.curves import Floats
+from sim.cli.compile import LOOPS, compile_loops
+from sim.measure.curve_rows import away_from
 
 INNER = """
 from controller.compiled.loops import compiled
@@ -76,18 +83,74 @@ def test_every_module_with_loops_is_compiled_at_set_up() -> None:
     assert sorted(LOOPS) == sorted(with_loops)
 
 
-def test_numba_is_loaded_when_a_loop_is_called_and_not_before() -> None:
+def test_numba_is_loaded_to_compile_a_loop_and_not_to_call_it(loops: Path) -> None:
+    cache = loops / "cache"
+    (loops / "outer.py").write_text(f"{OUTER}\nimport sys\nprint('numba' in sys.modules)\n")
+    assert printed(loops, cache) == ["compiling", "10.0", "True"]
+    assert printed(loops, cache) == ["10.0", "False"]
+
+
+def test_a_run_needs_no_numba_once_its_loops_are_compiled(tmp_path: Path) -> None:
     code = (
-        "import sys, importlib\n"
-        "for name in sys.argv[1:]: importlib.import_module(name)\n"
-        "print('numba' in sys.modules)\n"
-        "from sim.table.solve.tick import due_s\n"
-        "due_s.loaded()\n"
-        "print('numba' in sys.modules)\n"
+        "import atexit, sys\n"
+        "atexit.register(lambda: print('numba' in sys.modules, 'llvmlite' in sys.modules, file=sys.stderr))\n"
+        "from drycut.__main__ import main\n"
+        "main()\n"
     )
-    command = [sys.executable, "-c", code, *LOOPS]
+    compile_loops()
+    command = [sys.executable, "-c", code, "run", str(SCENARIOS / "keyhole"), "-o", str(tmp_path / "out"), "--kerf"]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True, timeout=120)
-    assert done.stdout.split() == ["False", "True"]
+    assert done.stderr.splitlines()[-1] == "False True"
+
+
+@pytest.mark.parametrize(
+    "damaged",
+    [
+        lambda entry: b"",
+        lambda entry: entry[:40],
+        lambda entry: entry[:-1],
+        lambda entry: entry[:200] + bytes(byte ^ 255 for byte in entry[200:207]) + entry[207:],
+        lambda entry: entry[32:],
+        lambda entry: b"\0" * len(entry),
+    ],
+    ids=["empty", "its seal alone", "cut off", "seven bytes other", "without its seal", "zeros"],
+)
+def test_damaged_machine_code_counts_as_none(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, damaged: Callable[[bytes], bytes]
+) -> None:
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "cache"))
+    code = MachineCode("a", (Shape("array", "<f8", 2),), Shape("tuple", fields=(Shape("bool"),)), bytes(range(256)))
+    store("a.loop", "0", code)
+    assert stored("a.loop", "0") == code
+    assert stored("a.loop", "1") is None
+    (entry,) = (tmp_path / "cache").iterdir()
+    entry.write_bytes(damaged(entry.read_bytes()))
+    assert stored("a.loop", "0") is None
+
+
+def test_damaged_machine_code_is_compiled_again(loops: Path) -> None:
+    cache = loops / "cache"
+    printed(loops, cache)
+    (entry,) = cache.glob("*.total-*.loop")
+    sound = entry.read_bytes()
+    entry.write_bytes(b"")
+    assert printed(loops, cache) == ["compiling", "10.0"]
+    assert entry.read_bytes() == sound
+
+
+def test_where_nothing_can_be_stored_a_loop_is_compiled_each_time(loops: Path) -> None:
+    for cache in ("outer.py", "outer.py/within"):
+        assert printed(loops, loops / cache) == ["compiling", "10.0"]
+
+
+def test_a_draft_that_cannot_be_finished_leaves_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def full(_path: Path, _target: Path) -> None:
+        raise OSError(errno.ENOSPC, "no space left")
+
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
+    monkeypatch.setattr(Path, "replace", full)
+    store("a.loop", "0", MachineCode("a", (), Shape("none"), b"code"))
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_threads_that_call_a_loop_first_all_get_what_it_returns() -> None:
@@ -106,9 +169,56 @@ def test_threads_that_call_a_loop_first_all_get_what_it_returns() -> None:
     assert done.stdout.split() == ["True", "[1]"]
 
 
-def test_arguments_of_another_signature_are_refused() -> None:
+@pytest.mark.parametrize(
+    "row",
+    [
+        np.zeros(12, dtype=np.complex128),
+        np.zeros(12, dtype=np.float32),
+        np.zeros((1, 12)),
+        np.zeros(24)[::2],
+        [0.0] * 12,
+        None,
+    ],
+)
+def test_arguments_of_another_signature_are_refused(row: object) -> None:
     with pytest.raises(TypeError):
-        neighbours(np.zeros((2, 2), dtype=np.complex128), 1)
+        away_from(row, 1.0, 2.0)  # type: ignore[arg-type]  # that is what is tried
+
+
+def test_more_or_fewer_arguments_are_refused() -> None:
+    for extra in ((), (1.0,), (1.0, 2.0, 3.0)):
+        with pytest.raises(TypeError):
+            away_from(np.zeros(12), *extra)
+
+
+class Inner(NamedTuple):
+    """A tuple in a tuple, of parts that lie apart in memory."""
+
+    is_on: bool
+    at: float
+
+
+class Outer(NamedTuple):
+    """A tuple of all that a loop can give."""
+
+    inner: Inner
+    number: int
+    is_off: bool
+
+
+@compiled("(Outer, f8[:, ::1], b1)", Outer, Inner)
+def turned_over(outer: Outer, table: Floats, is_on: bool) -> Outer:
+    """Everything the other way round."""
+    return Outer(Inner(not outer.inner.is_on, table[1, 0]), outer.number + table.shape[0], is_on)
+
+
+@pytest.mark.parametrize("is_on", [True, False])
+def test_tuples_arrays_and_truths_go_in_and_come_out(is_on: bool) -> None:
+    table = np.arange(6.0).reshape(3, 2)
+    given = Outer(Inner(is_on, 0.5), -(2**62), not is_on)
+    found = turned_over(given, table, is_on)
+    assert found == turned_over.function(given, table, is_on)  # type: ignore[attr-defined]  # as plain Python
+    assert [type(each) for each in (*found, *found.inner)] == [Inner, int, bool, bool, float]
 
 
 def _is_loop(node: ast.AST) -> bool:

@@ -221,15 +221,20 @@ def _lie_within(figure: Figure, spread_um: Floats) -> list[bool]:
     return within
 
 
-@compiled("i8[:,::1](f8[:,::1], i8)")
 def neighbours(place: Floats, number: int) -> Ints:
-    """The (n, k) nearest other places of each of n in order of X, nearest first; k is less than n.
+    """The (n, k) nearest other places of each of n in order of X, nearest first; k is less than n."""
+    found = np.full((len(place), number), -1, dtype=np.int64)
+    _find_neighbours(place, found, np.empty(number))
+    return found
+
+
+@compiled("void(f8[:,::1], i8[:,::1], f8[::1])")
+def _find_neighbours(place: Floats, found: Ints, square: Floats) -> None:
+    """Fill in the nearest (n, k) to each of n places in order of X; `square` (k,) is room for their distances.
 
     From each place the search goes to both sides, no farther in X than the farthest of those that were found.
     """
-    n = place.shape[0]
-    found = np.full((n, number), -1, dtype=np.int64)
-    square = np.full(number, np.inf)
+    n, number = found.shape
     for at in range(n):
         square[:] = np.inf
         for step in (-1, 1):
@@ -243,16 +248,20 @@ def neighbours(place: Floats, number: int) -> Ints:
                         slot -= 1
                     square[slot], found[at, slot] = off, other
                 other += step
-    return found
 
 
-@compiled("i8[::1](f8[:,::1], i8)")
 def from_nearest_to_nearest(place: Floats, first: int) -> Ints:
     """Order (n,) from one of the places (n, 2), which are in order of X, each time to the nearest one that is left."""
-    n = place.shape[0]
-    before, after = np.arange(-1, n - 1), np.arange(1, n + 1)
+    n = len(place)
     order = np.empty(n, dtype=np.int64)
-    at = first
+    _go_on_to_the_nearest(place, first, np.arange(-1, n - 1), np.arange(1, n + 1), order)
+    return order
+
+
+@compiled("void(f8[:,::1], i8, i8[::1], i8[::1], i8[::1])")
+def _go_on_to_the_nearest(place: Floats, first: int, before: Ints, after: Ints, order: Ints) -> None:
+    """Fill in the order (n,) of places (n, 2); of those that are left, `before` and `after` (n,) are beside each."""
+    n, at = place.shape[0], first
     for number in range(n):
         order[number] = at
         left, right = before[at], after[at]
@@ -272,7 +281,6 @@ def from_nearest_to_nearest(place: Floats, first: int) -> Ints:
                 square, nearest = off, right
             right = after[right]
         at = nearest
-    return order
 
 
 _NEAR = 10  # neighbours of a place that are looked at; with more, ways get hardly shorter
