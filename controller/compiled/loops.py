@@ -14,7 +14,7 @@ that the same input gives the same bytes.
 import hashlib
 import threading
 from collections.abc import Callable
-from functools import cache, update_wrapper
+from functools import cache, cached_property, update_wrapper
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, TypeVar, cast, get_type_hints
 
@@ -36,15 +36,20 @@ class Loop:
         What it is made of.
     signature, tuples
         As `compiled` has them.
-    digest
-        Of all sources that go into it.
     """
 
     def __init__(self, function: Callable[..., Any], signature: str, tuples: tuple[type, ...]) -> None:
         self.function, self.signature, self.tuples = function, signature, tuples
-        self.digest = _digest(function)
         self._code: Callable[..., Any] | None = None
         update_wrapper(self, function)
+
+    @cached_property
+    def digest(self) -> str:
+        """Of all that goes into it: its module, loops, numbers and NamedTuples of others, and how code is made."""
+        values = self.function.__globals__.items()
+        known = {text for name, value in values if (text := _text_of(name, value, self.function.__module__))}
+        sources = [_source(self.function.__code__.co_filename), *map(_source, _MAKERS)]
+        return hashlib.sha256(b"\n".join([*sources, *(text.encode() for text in sorted(known))])).hexdigest()[:16]
 
     def __call__(self, *args: Any) -> Any:
         """What the function returns. TypeError for arguments that are not those of the signature."""
@@ -95,14 +100,6 @@ def compiled(signature: str, *tuples: type) -> Callable[[Function], Function]:
     return compiled_loop
 
 
-def _digest(function: Callable[..., Any]) -> str:
-    """Digest of a function's module, of all loops, numbers and NamedTuples that it has, and of how code is made."""
-    values = function.__globals__.items()
-    known = {text for name, value in values if (text := _text_of(name, value))}
-    sources = [_source(function.__code__.co_filename), *map(_source, _MAKERS)]
-    return hashlib.sha256(b"\n".join([*sources, *(text.encode() for text in sorted(known))])).hexdigest()[:16]
-
-
 _MAKERS: Final = tuple(str(Path(__file__).with_name(name)) for name in ("compiler.py", "machine_code.py"))
 
 
@@ -111,10 +108,10 @@ def _source(file: str) -> bytes:
     return Path(file).read_bytes()
 
 
-def _text_of(name: str, value: object) -> str:
-    """What a global value puts into a compiled loop, as text; none where it puts in nothing."""
+def _text_of(name: str, value: object, module: str) -> str:
+    """What a global value puts into a compiled loop of a module, as text; none where it puts in nothing."""
     if isinstance(value, Loop):
-        return value.digest
+        return value.digest if value.function.__module__ != module else ""
     if isinstance(value, type) and hasattr(value, "_fields"):
         return f"{name}: {get_type_hints(value)}"
     return f"{name} = {value!r}" if isinstance(value, int | float) else ""
