@@ -1,5 +1,6 @@
 """Pulses: steps with the time of each, what a card hands to the drives."""
 
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -42,6 +43,23 @@ def no_pulses() -> Pulses:
     """Pulses of an axis that stands."""
     none = np.zeros(0, dtype=np.int32)
     return Pulses(np.zeros(0), none, none, none)
+
+
+def joined(pulses: Iterable[Pulses], number: int) -> Iterator[Pulses]:
+    """The same pulses in parts of so many at least, but for the last: each part is taken at some cost."""
+    waiting, waits = list[Pulses](), 0
+    for part in pulses:
+        waiting.append(part)
+        waits += len(part.t_s)
+        if waits >= number:
+            yield _one_of(waiting)
+            waiting, waits = [], 0
+    if waits:
+        yield _one_of(waiting)
+
+
+def _one_of(parts: list[Pulses]) -> Pulses:
+    return parts[0] if len(parts) == 1 else Pulses(*map(np.concatenate, zip(*parts, strict=True)))
 
 
 def time_steps(steps: "StepChunk", plan: Plan, began_s: float = 0.0, from_um: float = 0.0) -> Pulses:

@@ -13,7 +13,7 @@ from controller.host.entries import Drive
 from controller.host.host import Host
 from controller.motion.limits import Feeds, row_limits
 from controller.motion.planner import plan_rows
-from controller.stepping.pulses import Pulses
+from controller.stepping.pulses import Pulses, joined
 from parser.toolpath import Toolpath
 from sim.base.progress import Progress, silent
 from sim.setup.machine.machine import Machine
@@ -22,6 +22,9 @@ from sim.table.record.history import History
 from sim.table.record.losses import Loss, Peak
 from sim.table.trace import Trace, origin_um
 from sim.table.when.ticks import Ticks, choose_ticks, rhythm
+
+_TOGETHER = 1 << 14
+"""Pulses that the table follows at a time: each time costs it a millisecond, and slow feeds hand out few at once."""
 
 
 class Motion(NamedTuple):
@@ -108,7 +111,7 @@ class TableRun:
 
     def followed(self, pulses: Iterable[Pulses]) -> Iterator[Pulses]:
         """Let the table follow; the pulses come out again as soon as it is sure that the machine ran them."""
-        for handed in pulses:
+        for handed in joined(pulses, _TOGETHER):
             due = _up_to(handed, self._until_s)
             if not len(due.t_s):
                 continue

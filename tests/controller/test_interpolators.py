@@ -1,5 +1,6 @@
 """Interpolators: each pulse is handed out once, when it is due, however the time is portioned and motion re-planned."""
 
+import itertools
 import math
 from collections.abc import Callable
 from itertools import pairwise
@@ -18,7 +19,7 @@ from controller.motion.planner import RowLimits, plan_rows
 from controller.stepping import chunks
 from controller.stepping.chunks import StepChunk, chunk_of
 from controller.stepping.interpolators import EqualTime, Interpolator, PointByPoint
-from controller.stepping.pulses import Pulses
+from controller.stepping.pulses import Pulses, joined, no_pulses
 from controller.stepping.steps import Steps
 from controller.stepping.words import interpolate
 from parser.program import parse_program
@@ -170,3 +171,20 @@ def test_a_plan_without_motion_makes_no_step() -> None:
     motion = PointByPoint(steps, EMPTY_PLAN, 0.0, (0, 0), done=5, from_um=5.0)
     assert list(motion.pulses(math.inf)) == []
     assert (motion.done, motion.at_um) == (5, (0, 0))
+
+
+@pytest.mark.parametrize("number", [1, 7, 100])
+def test_joined_pulses_are_the_same_in_parts_of_as_many_as_are_wanted_but_for_the_last(number: int) -> None:
+    sizes = [3, 0, 1, 50, 2, 2, 2, 120, 5, 0]
+    ends = list(itertools.accumulate(sizes))
+    whole = Pulses(np.arange(185.0), *(np.arange(185, dtype=np.int32) + at for at in range(3)))
+    parts = list(joined((whole.part(end - size, end) for size, end in zip(sizes, ends, strict=True)), number))
+    assert all(len(part.t_s) >= number for part in parts[:-1])
+    assert len(parts[-1].t_s) > 0
+    for columns, column in zip(zip(*parts, strict=True), whole, strict=True):
+        assert np.array_equal(np.concatenate(columns), column)
+        assert {each.dtype for each in columns} == {column.dtype}
+
+
+def test_no_pulses_are_no_part() -> None:
+    assert list(joined([no_pulses(), no_pulses()], 1)) == []
