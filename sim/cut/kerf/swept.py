@@ -97,6 +97,19 @@ class Swept(NamedTuple):
                 todo += [(level - 1, each) for each in reversed(range(at << _KEPT, past_it))]
         return found
 
+    def places_near(self, box: Box) -> Ints:
+        """Indices of the places on the way, in order, on stretches whose regions come near a box.
+
+        Every place is among them that lies within the box, or an offset from it.
+        """
+        low_x, low_y, high_x, high_y = self.boxes[0].T if len(self.boxes[0]) else np.empty((4, 0))
+        meets = (low_x <= box[2]) & (high_x >= box[0]) & (low_y <= box[3]) & (high_y >= box[1])
+        near = np.flatnonzero(meets)
+        first, number = self.first[near], np.diff(np.append(self.first, len(self.way.row)))[near]
+        before = np.cumsum(number) - number
+        places: Ints = np.arange(int(number.sum())) + np.repeat(first - before, number)
+        return places
+
 
 def _meet(this: Box, other: Box) -> bool:
     return this[0] <= other[2] and other[0] <= this[2] and this[1] <= other[3] and other[1] <= this[3]

@@ -57,11 +57,6 @@ def spacing_um(offset_um: float) -> float:
     return float(np.sqrt(8.0 * offset_um * _SCALLOP_UM))
 
 
-def behind(way: WireWay, at: int) -> WireWay:
-    """The rest of a way from one of its places on."""
-    return WireWay(way.place_um[at:], way.along_um[at:], way.t_s[at:], way.row[at:])
-
-
 def _wire_way(trace: Trace, samples: slice, spacing: float) -> WireWay:
     place, t_s, row = trace.wire_um[samples], trace.t_s[samples], trace.row[samples]
     if not len(row):
@@ -101,12 +96,17 @@ def rows_that_made(ways: Iterable[WireWay], place_um: Floats, reach_um: float) -
     return np.where(last == NOBODY, NOBODY, row[last])
 
 
-def share_made(edge_um: shapely.LinearRing, way_um: Sequence[Floats], reach_um: float) -> float:
-    """Share of an edge that the wire made on some stretches of its way, each places (p, 2) one after the other."""
-    way = shapely.MultiLineString([places for places in way_um if len(places) > 1])
-    if way.is_empty:
+def lines_of(way_um: Sequence[Floats]) -> shapely.MultiLineString:
+    """Stretches of the wire's way as lines, each places (p, 2) one after the other; prepared, as many edges may ask."""
+    lines = shapely.MultiLineString([places for places in way_um if len(places) > 1])
+    shapely.prepare(lines)
+    return lines
+
+
+def share_made(edge_um: shapely.LinearRing, way_um: shapely.MultiLineString, reach_um: float) -> float:
+    """Share of an edge that the wire made on some stretches of its way (`lines_of`)."""
+    if way_um.is_empty:
         return 0.0
     spacing = max(_SPACING * reach_um, edge_um.length / _MOST_PLACES)
     places = shapely.line_interpolate_point(edge_um, np.arange(0.0, edge_um.length, spacing))
-    shapely.prepare(way)
-    return float(np.mean(shapely.dwithin(way, places, reach_um + _INEXACT_UM)))
+    return float(np.mean(shapely.dwithin(way_um, places, reach_um + _INEXACT_UM)))

@@ -11,9 +11,8 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from parser.geometry.curves import Floats
+from parser.geometry.curves import Floats, Ints
 from sim.cut.kerf.swept import Box, Swept
-from sim.cut.kerf.ways import WireWay
 from sim.cut.regions import Region, difference, union_all
 
 _SPARED = 0.1  # offsets: a wire that reaches less deep into a piece only takes off what an earlier cut left on it
@@ -140,28 +139,47 @@ def _within(
     return Closing(FreeMoment(whole.contour, high, piece), hung)
 
 
-def cut_on_um(piece_um: shapely.Polygon, ways: Iterable[WireWay], offset_um: float) -> float:
-    """How far the wire goes on in a piece along some ways, not counting where it runs along its own kerf again."""
+class Rest(NamedTuple):
+    """What the wire sweeps on a contour from one of the places of its way on, by its index."""
+
+    swept: Swept
+    first: int
+
+
+def cut_on_um(piece_um: shapely.Polygon, rests: Iterable[Rest], offset_um: float) -> float:
+    """How far the wire goes on in a piece, not counting where it runs along its own kerf again."""
     shapely.prepare(piece_um)
-    inside = [_inside(piece_um, way, offset_um) for way in ways]
-    length = np.concatenate([np.diff(way.along_um, prepend=way.along_um[:1])[at] for way, at in inside])
-    place = np.concatenate([way.place_um[at] for way, at in inside])
+    inside = [(rest, _inside(piece_um, rest, offset_um)) for rest in rests]
+    length = np.concatenate([_lengths_um(rest, at) for rest, at in inside])
+    place = np.concatenate([rest.swept.way.place_um[at] for rest, at in inside])
     return float(length[~_again(place, np.cumsum(length), offset_um)].sum())
 
 
-def _inside(piece_um: shapely.Polygon, way: WireWay, offset_um: float) -> tuple[WireWay, NDArray[np.bool_]]:
-    low_x, low_y, high_x, high_y = piece_um.bounds
-    x, y = way.place_um.T
+def _inside(piece_um: shapely.Polygon, rest: Rest, offset_um: float) -> Ints:
+    """Indices of the places from which the wire cuts in a piece."""
     reach = (1.0 - _SPARED) * offset_um
-    cuts = (x >= low_x - reach) & (x <= high_x + reach) & (y >= low_y - reach) & (y <= high_y + reach)
-    cuts[cuts] = shapely.dwithin(piece_um, shapely.points(way.place_um[cuts]), reach)
-    return way, cuts
+    low_x, low_y, high_x, high_y = piece_um.bounds
+    near = rest.swept.places_near(piece_um.bounds)
+    x, y = rest.swept.way.place_um[near].T
+    is_near = (x >= low_x - reach) & (x <= high_x + reach) & (y >= low_y - reach) & (y <= high_y + reach)
+    near = near[is_near & (near >= rest.first)]
+    inside: Ints = near[shapely.dwithin(piece_um, shapely.points(rest.swept.way.place_um[near]), reach)]
+    return inside
+
+
+def _lengths_um(rest: Rest, at: Ints) -> Floats:
+    """How far it is to each of some places of a rest from the one before."""
+    along = rest.swept.way.along_um
+    lengths: Floats = along[at] - along[np.maximum(at - 1, rest.first)]
+    return lengths
 
 
 def _again(place_um: Floats, along_um: Floats, offset_um: float) -> NDArray[np.bool_]:
     """Whether the way was at each of the places (m, 2) before: more than an offset earlier by its length (m,)."""
+    again = np.zeros(len(place_um), dtype=np.bool_)
+    if not len(along_um) or along_um[-1] - along_um[0] <= offset_um:
+        return again
     points = np.asarray(shapely.points(place_um))
     this, other = shapely.STRtree(points).query(points, predicate="dwithin", distance=_SPARED * offset_um)
-    again = np.zeros(len(points), dtype=np.bool_)
     again[this[along_um[this] - along_um[other] > offset_um]] = True
     return again

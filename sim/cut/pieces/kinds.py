@@ -11,18 +11,18 @@ Where the program pauses in front of it, the operator can clamp the piece before
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import cache
 from typing import Literal, NamedTuple
 
 import numpy as np
 import shapely
 
-from parser.geometry.curves import Floats
+from parser.geometry.curves import Floats, Ints
 from parser.shape.passes import WIDEST_TAB
 from parser.toolpath import Point
 from sim.cut.kerf.swept import Kerf, Swept
-from sim.cut.kerf.ways import WireWay, share_made
+from sim.cut.kerf.ways import WireWay, lines_of, share_made
 from sim.cut.pieces.frees import FreeMoment
 
 _FRESH = 3.0  # offsets: so far back along its way the wire is in the kerf it is cutting, and closes on to nothing
@@ -61,17 +61,24 @@ class Older(NamedTuple):
 
 
 def older_place(
-    ways: Sequence[WireWay], earlier: Sequence[int], contour: int, at: int, offset_um: float
+    swept: Sequence[Swept], earlier: Sequence[int], contour: int, at: int, offset_um: float
 ) -> Older | None:
-    """The older place, on an earlier contour or on this one, that the wire closes on to; None at the work's edge."""
-    way = ways[contour]
-    wire = way.place_um[at]
-    fresh = int(np.searchsorted(way.along_um, way.along_um[at] - _FRESH * offset_um))
-    places = [(index, ways[index].place_um) for index in earlier] + [(contour, way.place_um[:fresh])]
-    older = [_nearest(place, wire, index) for index, place in places if len(place)]
+    """The older place, on an earlier contour or on this one, that the wire closes on to; None at the work's edge.
+
+    Discs that touch are two offsets apart; a place farther off has no part in it.
+    """
+    way, reach = swept[contour].way, _FRESH * offset_um
+    x, y = way.place_um[at].tolist()
+    fresh = int(np.searchsorted(way.along_um, way.along_um[at] - reach))
+    near = {index: swept[index].places_near((x - reach, y - reach, x + reach, y + reach)) for index in earlier}
+    near[contour] = _before(swept[contour].places_near((x - reach, y - reach, x + reach, y + reach)), fresh)
+    older = [_nearest(swept[index].way, places, (x, y), index) for index, places in near.items() if len(places)]
     nearest = min(older, key=lambda each: each.off_um, default=None)
-    # Discs that touch are two offsets apart; a place farther off has no part in it.
-    return nearest if nearest is not None and nearest.off_um < _FRESH * offset_um else None
+    return nearest if nearest is not None and nearest.off_um < reach else None
+
+
+def _before(places: Ints, past: int) -> Ints:
+    return places[: int(np.searchsorted(places, past))]
 
 
 def bridge_of(ways: Sequence[WireWay], contour: int, at: int, older: Older | None) -> Bridge:
@@ -103,13 +110,14 @@ def held_after(
     if at < 0:
         return None
     before = [way.place_um[way.row < pauses[at]] for way in ways]
-    return int(pauses[at]) if share_made(edge_um, before, offset_um) >= 1.0 - _BRIDGE else None
+    return int(pauses[at]) if share_made(edge_um, lines_of(before), offset_um) >= 1.0 - _BRIDGE else None
 
 
-def _nearest(place: Floats, wire: Floats, contour: int) -> Older:
-    off = np.hypot(place[:, 0] - wire[0], place[:, 1] - wire[1])
+def _nearest(way: WireWay, places: Ints, wire: tuple[float, float], contour: int) -> Older:
+    """The place nearest to the wire among some of a way, by their indices."""
+    off = np.hypot(*(way.place_um[places] - wire).T)
     at = int(np.argmin(off))
-    return Older(contour, at, float(off[at]))
+    return Older(contour, int(places[at]), float(off[at]))
 
 
 _ON_IT = 0.1  # offsets: a start this near to the loop lies on it, and is no lead-in
@@ -160,11 +168,21 @@ def kinds_of(found: list[Loose], kerf: Kerf) -> list[Kind]:
     def ring_of(contour: int) -> shapely.Polygon | None:
         return _ring_of(kerf.swept[contour].way, kerf)
 
+    @cache
+    def leads_of(contours: tuple[int, ...]) -> shapely.MultiLineString:
+        return lines_of([stretch for contour in contours for stretch in _leads(kerf.swept[contour].way, kerf)])
+
+    @cache
+    def angle_of(contour: int) -> Floats:
+        return _angles_about_start(kerf.swept[contour].way)
+
     for piece in found:
         beside_larger = any(largest[figure[contour]] > piece.outline_um.area for contour in piece.contours)
-        if _held_the_start(piece, kerf.swept, kerf.offset_um):
+        if _held_the_start(piece, kerf, angle_of):
             kinds.append("slug")
-        elif beside_larger and (_is_sliver(piece.outline_um, kerf.offset_um) or _was_led_by(piece, kerf)):
+        elif beside_larger and (
+            _is_sliver(piece.outline_um, kerf.offset_um) or _was_led_by(piece, leads_of, kerf.offset_um)
+        ):
             kinds.append("scrap")
         elif piece.older is not None and _lay_within_pass(piece, ring_of(piece.contours[0])):
             kinds.append("slug")
@@ -185,14 +203,16 @@ def _figures(kerf: Kerf) -> list[int]:
     return figure
 
 
-def _held_the_start(piece: Loose, swept: tuple[Swept, ...], offset_um: float) -> bool:
+def _held_the_start(piece: Loose, kerf: Kerf, angle_of: Callable[[int], Floats]) -> bool:
     """Whether the wire came from inside of a piece; never where it was the edge of the work that closed the cut."""
     if piece.older is None:
         return False
-    if piece.older.contour == piece.moment.contour:
-        return came_from_inside(swept[piece.moment.contour].way, piece.older.at, piece.moment.at, offset_um)
+    contour = piece.moment.contour
+    if piece.older.contour == contour:
+        loop = slice(piece.older.at, piece.moment.at + 1)
+        return came_from_inside(kerf.swept[contour].way, loop, angle_of(contour), kerf.offset_um)
     # Several contours cut round it, since a bridge was left for later: the start of the first one tells.
-    return began_in(swept[piece.contours[0]].way, piece.outline_um, offset_um)
+    return began_in(kerf.swept[piece.contours[0]].way, piece.outline_um, kerf.offset_um)
 
 
 def _lay_within_pass(piece: Loose, ring_um: shapely.Polygon | None) -> bool:
@@ -220,16 +240,25 @@ def _ring_of(way: WireWay, kerf: Kerf) -> shapely.Polygon | None:
     return ring if ring.contains(shapely.Point(way.place_um[0])) else None
 
 
-def came_from_inside(way: WireWay, begin: int, end: int, offset_um: float) -> bool:
-    """Whether a way starts inside the loop between its places `begin` and `end` (indices), and not on the loop."""
-    if end - begin < 3:
+def came_from_inside(way: WireWay, loop: slice, angle_rad: Floats, offset_um: float) -> bool:
+    """Whether a way starts inside the loop of some of its places, and not on the loop.
+
+    `angle_rad` are those of `_angles_about_start`.
+    """
+    places, angle = way.place_um[loop], angle_rad[loop]
+    if len(places) < 4:
         return False
-    loop = way.place_um[begin : end + 1]
-    out = loop - way.place_um[0]
-    angle = np.arctan2(out[:, 1], out[:, 0])
-    turned = np.diff(np.unwrap(np.append(angle, angle[0]))).sum()
-    ring = shapely.LinearRing(loop)
-    return bool(abs(turned) > np.pi and ring.distance(shapely.Point(way.place_um[0])) > _ON_IT * offset_um)
+    back = (angle[0] - angle[-1] + np.pi) % (2.0 * np.pi) - np.pi
+    if abs(angle[-1] - angle[0] + back) <= np.pi:
+        return False
+    return bool(shapely.LinearRing(places).distance(shapely.Point(way.place_um[0])) > _ON_IT * offset_um)
+
+
+def _angles_about_start(way: WireWay) -> Floats:
+    """Angles (m,) of the places of a way seen from its start, rad; none is half a turn or more from the one before."""
+    out = way.place_um - way.place_um[0]
+    angles: Floats = np.unwrap(np.arctan2(out[:, 1], out[:, 0]))
+    return angles
 
 
 def began_in(way: WireWay, piece_um: shapely.Polygon, offset_um: float) -> bool:
@@ -244,11 +273,10 @@ def _is_sliver(piece_um: shapely.Polygon, offset_um: float) -> bool:
     return 2.0 * piece_um.area < 2.0 * offset_um * piece_um.length and bool(piece_um.buffer(-offset_um).is_empty)
 
 
-def _was_led_by(piece: Loose, kerf: Kerf) -> bool:
+def _was_led_by(piece: Loose, leads_of: Callable[[tuple[int, ...]], shapely.MultiLineString], offset_um: float) -> bool:
     """Whether leads of the contours about a piece made some of its outer edge: more than where a lead meets it."""
-    leads = [stretch for contour in piece.contours for stretch in _leads(kerf.swept[contour].way, kerf)]
     edge = piece.outline_um.exterior
-    return share_made(edge, leads, kerf.offset_um) * edge.length > _LED * kerf.offset_um
+    return share_made(edge, leads_of(tuple(piece.contours)), offset_um) * edge.length > _LED * offset_um
 
 
 def _leads(way: WireWay, kerf: Kerf) -> list[Floats]:

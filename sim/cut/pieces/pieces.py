@@ -8,8 +8,8 @@ import shapely
 
 from parser.toolpath import Point
 from sim.cut.kerf.swept import Kerf
-from sim.cut.kerf.ways import WireWay, behind
-from sim.cut.pieces.frees import FreeMoment, cut_on_um, parted
+from sim.cut.kerf.ways import WireWay
+from sim.cut.pieces.frees import FreeMoment, Rest, cut_on_um, parted
 from sim.cut.pieces.kinds import Bridge, Kind, Loose, bridge_of, held_after, kinds_of, older_place
 from sim.cut.pieces.moments import Cutting, moments_of
 from sim.setup.obstacles import Outline
@@ -155,9 +155,8 @@ class _Cuts(NamedTuple):
 
 def _loose(kerf: Kerf, stock: shapely.Polygon, part: shapely.Polygon, contours: list[int], moment: FreeMoment) -> Loose:
     """A part as it comes free."""
-    ways = [each.way for each in kerf.swept]
     earlier = [index for index in contours if index < moment.contour]
-    older = older_place(ways, earlier, moment.contour, moment.at, kerf.offset_um)
+    older = older_place(kerf.swept, earlier, moment.contour, moment.at, kerf.offset_um)
     return Loose(part, stock, contours, moment, older)
 
 
@@ -168,7 +167,7 @@ def _piece(cuts: _Cuts, loose: Loose, kind: Kind) -> Piece:
     ways = [each.way for each in kerf.swept]
     lead_um = float(ways[contour].along_um[older.at]) if is_slug and older and older.contour == contour else 0.0
     area = part.area * 1e-6
-    after = cut_on_um(loose.moment.piece_um, _ways_after(cuts, loose, is_slug=is_slug), kerf.offset_um)
+    after = cut_on_um(loose.moment.piece_um, _after(cuts, loose, is_slug=is_slug), kerf.offset_um)
     freed = _freed(ways[contour], loose.moment)
     beside_contours = [ways[index] for index in loose.contours if index <= contour]
     pause = held_after(loose.moment.piece_um.exterior, beside_contours, freed.block - 1, cuts.pauses, kerf.offset_um)
@@ -198,15 +197,15 @@ def _round(kerfs: shapely.STRtree, part: shapely.Polygon) -> list[int]:
     return near
 
 
-def _ways_after(cuts: _Cuts, loose: Loose, *, is_slug: bool) -> list[WireWay]:
-    """Ways that may cut in a piece once it is free.
+def _after(cuts: _Cuts, loose: Loose, *, is_slug: bool) -> list[Rest]:
+    """What may be cut in a piece once it is free.
 
     Later contours count in a part alone: a slug is taken out before them. They do not count either in a part with some
     of the work's own edge, since a clamp may hold it there.
     """
     swept, moment = cuts.kerf.swept, loose.moment
-    rest = behind(swept[moment.contour].way, moment.at)
+    rest = Rest(swept[moment.contour], moment.at)
     if is_slug or moment.piece_um.intersects(loose.stock_um.exterior):
         return [rest]
     met = np.sort(cuts.kerfs.query(moment.piece_um, predicate="intersects"))
-    return [rest, *(swept[at].way for at in met[met > moment.contour].tolist())]
+    return [rest, *(Rest(swept[at], 0) for at in met[met > moment.contour].tolist())]

@@ -15,7 +15,7 @@ from shapely import ops
 from shapely.geometry.base import BaseGeometry
 
 from controller.compiled.loops import compiled
-from parser.geometry.curves import Floats
+from parser.geometry.curves import Floats, Ints
 from parser.toolpath import Point
 from sim.cut.pieces.pieces import Piece, Pieces
 from sim.cut.play.walls import SIMPLER_UM, Walls, room_of, walls_of
@@ -49,13 +49,17 @@ def sides_of(lines_um: BaseGeometry) -> Sides:
     return Sides(points[same], points[same + 1])
 
 
-def shifted_until(moving: Sides, standing: Sides, toward_rad: float) -> Contact:
-    """How far `moving` shifts in a direction until it touches `standing`."""
-    u = np.array([np.cos(toward_rad), np.sin(toward_rad)])
+def shifted_until(moving: Sides, standing: Sides, toward_rad: Floats) -> list[Contact]:
+    """How far `moving` shifts in each of some directions (d,) until it touches `standing`."""
+    u = np.stack([np.cos(toward_rad), np.sin(toward_rad)], axis=1)
     there, back = _first_ahead(moving, standing, u), _first_ahead(standing, moving, -u)
-    if back.by < there.by:
-        return Contact(back.by, Point(*back.corner.tolist()))
-    return _touch(there.by, there.corner + np.where(np.isfinite(there.by), there.by, np.nan) * u)
+    contacts = []
+    for ahead, behind, way in zip(there, back, u, strict=True):
+        if behind.by < ahead.by:
+            contacts.append(_touch(behind.by, behind.corner))
+        else:
+            contacts.append(_touch(ahead.by, ahead.corner + np.where(np.isfinite(ahead.by), ahead.by, np.nan) * way))
+    return contacts
 
 
 def turned_until(moving: Sides, standing: Sides, about_um: Floats, sense: int) -> Contact:
@@ -72,11 +76,13 @@ def _touch(by: float, place: Floats) -> Contact:
     return Contact(by, Point(*place.tolist()))
 
 
-def _first_ahead(of: Sides, sides: Sides, u: Floats) -> _First:
-    """The first corner to meet a side as all shift in the direction u."""
-    seen = np.stack([u, [-u[1], u[0]]], axis=1)  # along u, and across it
-    by, at = _ahead(of.start @ seen, sides.start @ seen, sides.end @ seen)
-    return _First(by, of.start[at] if at >= 0 else np.full(2, np.nan))
+def _first_ahead(of: Sides, sides: Sides, u: Floats) -> list[_First]:
+    """The first corner to meet a side as all shift in each of the directions u (d, 2)."""
+    seen = np.stack([u, np.stack([-u[:, 1], u[:, 0]], axis=1)], axis=2)  # along u, and across it
+    by, at = np.empty(len(u)), np.empty(len(u), dtype=np.int64)
+    _find_first_ahead(of.start @ seen, sides.start @ seen, sides.end @ seen, by, at)
+    found = zip(by.tolist(), at.tolist(), strict=True)
+    return [_First(way, of.start[corner] if corner >= 0 else np.full(2, np.nan)) for way, corner in found]
 
 
 def _first_round(of: Sides, sides: Sides, about_um: Floats, sense: int) -> _First:
@@ -99,6 +105,13 @@ def _ahead(corner: Floats, start: Floats, end: Floats) -> tuple[float, int]:
                 if 0.0 <= ahead < least:
                     least, first = ahead, c
     return least, first
+
+
+@compiled("void(f8[:,:,::1], f8[:,:,::1], f8[:,:,::1], f8[::1], i8[::1])")
+def _find_first_ahead(corner: Floats, start: Floats, end: Floats, by: Floats, at: Ints) -> None:
+    """Fill in what `_ahead` gives in each of d directions, as corners (d, c, 2) and sides (d, m, 2) are seen there."""
+    for each in range(corner.shape[0]):
+        by[each], at[each] = _ahead(corner[each], start[each], end[each])
 
 
 @compiled("Tuple((f8, i8))(f8[:,::1], f8[:,::1], f8[:,::1], f8)")
@@ -229,7 +242,7 @@ def play_between(
     (edge, from_edge), (walls, from_walls) = _coarse(outline_um.exterior), _coarse(walls_um, walls_to_um)
     center = np.array(outline_um.centroid.coords[0])
     scene = _Scene(edge, sides_of(edge), walls, sides_of(walls), center)
-    shifts = tuple(_shift(scene, angle) for angle in np.arange(_DIRECTIONS) * (360.0 / _DIRECTIONS))
+    shifts = _shifts(scene, np.linspace(0.0, 360.0, _DIRECTIONS, endpoint=False))
     turns = _turn(scene, 1), _turn(scene, -1)
     return Play(shifts, turns, _pinch(scene, wire_um, wire_radius_um, shifts, turns), from_edge + from_walls)
 
@@ -259,9 +272,11 @@ def _simplified(lines_um: BaseGeometry, by_um: float) -> BaseGeometry:
     return lines
 
 
-def _shift(scene: _Scene, toward_deg: float) -> Shift:
-    touch = shifted_until(scene.moving, scene.standing, np.radians(toward_deg))
-    return Shift(toward_deg, touch.by, touch.place_um)
+def _shifts(scene: _Scene, toward_deg: Floats) -> tuple[Shift, ...]:
+    """How far the piece shifts in each of some directions (d,)."""
+    touches = shifted_until(scene.moving, scene.standing, np.radians(toward_deg))
+    found = zip(toward_deg.tolist(), touches, strict=True)
+    return tuple(Shift(toward, touch.by, touch.place_um) for toward, touch in found)
 
 
 def _turn(scene: _Scene, sense: int) -> Turn:
@@ -275,8 +290,8 @@ def _pinch(
     wall = ops.nearest_points(shapely.Point(wire_um), scene.walls)[1]
     wall_um = np.array([wall.x, wall.y])
     nearest = ops.nearest_points(wall, scene.edge)[1]
-    straight = _shift(scene, float(np.degrees(np.arctan2(wall.y - nearest.y, wall.x - nearest.x))))
-    seen = [_seen_after_shift(wall_um, shift) for shift in (*shifts, straight) if np.isfinite(shift.by_um)]
+    straight = _shifts(scene, np.array([math.degrees(math.atan2(wall.y - nearest.y, wall.x - nearest.x))]))
+    seen = [_seen_after_shift(wall_um, shift) for shift in (*shifts, *straight) if np.isfinite(shift.by_um)]
     seen += [_seen_after_turn(wall_um, turn, scene.about_um) for turn in turns if np.isfinite(turn.by_deg)]
     width = scene.edge.distance(wall)
     narrowest = float(shapely.distance(scene.edge, shapely.points([wall_um, *seen])).min())

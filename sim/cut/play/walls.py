@@ -90,8 +90,13 @@ class Room(NamedTuple):
         ring, first, last = self.walls.runs[near[self._are_walls(rings)[of]]].T
         begins = np.append(True, (first[1:] != last[:-1]) | (ring[1:] != ring[:-1]))[: len(ring)]
         ends = np.append(begins[1:], True)[: len(ring)]
-        lines = zip(first[begins].tolist(), (last[ends] + 1).tolist(), strict=True)
-        return shapely.MultiLineString([self.walls.corner_um[low:past] for low, past in lines])
+        first, number = first[begins], last[ends] + 1 - first[begins]
+        of_line = np.repeat(np.arange(len(first)), number)
+        corner = np.arange(len(of_line)) - (np.cumsum(number) - number)[of_line] + first[of_line]
+        lines: BaseGeometry = shapely.multilinestrings(
+            shapely.linestrings(self.walls.corner_um[corner], indices=of_line)
+        )
+        return lines
 
     def _are_walls(self, rings: Ints) -> Bools:
         """Which rings (k,) stand, outside of the piece, and are its opening or lie in that."""
