@@ -9,6 +9,7 @@ from parser.findings.messages import Message
 from sim.cli.lengths import Length
 from sim.cli.scenario_options import ENGINE_OPTION
 from sim.cli.spoken import Spoken, spoken, words
+from sim.cli.spoken.completing import offer_machines
 from sim.cli.spoken.values import FilePath
 
 if TYPE_CHECKING:
@@ -31,7 +32,7 @@ class Speed(click.ParamType):  # type: ignore[type-arg]  # generic in newer clic
 @click.command(cls=Spoken)
 @click.option("--radius", type=Length(), default="50mm", show_default=True)
 @click.option("--feed", type=Speed())
-@click.option("--machine", default="dk7740", show_default=True, metavar="NAME|FILE")
+@click.option("--machine", default="dk7740", show_default=True, metavar="NAME|FILE", shell_complete=offer_machines)
 @click.option(
     "--interpolator",
     type=click.Choice(["point-by-point", "card"]),

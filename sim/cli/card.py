@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, TypeVar
 import click
 
 from sim.cli.spoken import SpokenGroup
+from sim.cli.spoken.completing import offer_machines
 from sim.cli.spoken.values import DecimalNumber, FilePath
 from sim.show.terminal.printer import say, write
 
@@ -95,7 +96,7 @@ def build(output: Path) -> None:
     show_default=True,
     metavar="S",
 )
-@click.option("--machine", metavar="NAME|FILE")
+@click.option("--machine", metavar="NAME|FILE", shell_complete=offer_machines)
 @click.option("--json", "as_json", is_flag=True)
 def run(  # noqa: PLR0913 - click hands over each option by its name
     *,

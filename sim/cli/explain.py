@@ -9,10 +9,11 @@ from parser.findings.catalogue import Language
 from parser.findings.codes import CODES
 from parser.findings.messages import Message
 from sim.cli.spoken import Spoken, spoken
+from sim.cli.spoken.completing import offer_pages
 
 
 @click.command(cls=Spoken)
-@click.argument("name", metavar="[CODE|DOCUMENT]", required=False)
+@click.argument("name", metavar="[CODE|DOCUMENT]", required=False, shell_complete=offer_pages)
 @click.argument("sections", metavar="[SECTION]...", nargs=-1)
 def explain(name: str | None, sections: tuple[str, ...]) -> None:
     """Show the page of a finding: what it is, why it matters, an example, how to mend it.

@@ -10,6 +10,7 @@ import click
 from parser.findings.messages import Message
 from sim.cli.dialect_options import READ_WITH
 from sim.cli.lengths import Length, length_options, taken_lengths
+from sim.cli.spoken.completing import offer_machines
 from sim.cli.spoken.values import WholeNumber
 from sim.setup.making import CORNERS, DIRECTION_WISHES, ENCODINGS, FORMS, LEAD_INS, SIDE_WISHES
 from sim.setup.wire import DIAMETER, SPARK_GAP
@@ -131,7 +132,7 @@ OPTIONS = (
     click.option("--pause-code", metavar="WORD"),
     click.option("--crlf", is_flag=True),
     click.option("--encoding", type=click.Choice(ENCODINGS)),
-    click.option("--machine", metavar="NAME|FILE"),
+    click.option("--machine", metavar="NAME|FILE", shell_complete=offer_machines),
     *length_options(OF_PROOF),
 )
 

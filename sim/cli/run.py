@@ -15,6 +15,7 @@ from parser.findings.messages import Message
 from sim.cli.overrides import Overrides, overridden, overrides_of
 from sim.cli.scenario_options import refused, scenario_options
 from sim.cli.spoken import Spoken, spoken, words
+from sim.cli.spoken.completing import offer_files
 from sim.cli.spoken.values import FilePath
 from sim.cli.spread import Spread, pool_of, spread_options
 
@@ -65,7 +66,7 @@ def run_shop(names: Sequence[str], output: Path | None, spread: Spread, options:
 
 
 @click.command(cls=Spoken)
-@click.argument("names", nargs=-1, required=True, metavar="PROGRAM|SCENARIO|FOLDER|GLOB...")
+@click.argument("names", nargs=-1, required=True, metavar="PROGRAM|SCENARIO|FOLDER|GLOB...", shell_complete=offer_files)
 @click.option(
     "-o",
     "--output",

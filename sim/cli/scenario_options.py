@@ -10,6 +10,7 @@ from parser.findings.errors import ProgramError
 from sim.cli.dialect_options import READ_WITH, OrRegister
 from sim.cli.lengths import Length, Lengths, length_options
 from sim.cli.spoken import spoken
+from sim.cli.spoken.completing import offer_machines
 from sim.cli.spoken.values import FilePath
 from sim.setup.settable import SETTABLE
 from sim.show.terminal.colours import painted
@@ -32,7 +33,7 @@ ENGINE_OPTION = click.option(
 
 _OPTIONS = (
     *READ_WITH,
-    click.option("--machine", metavar="NAME|FILE"),
+    click.option("--machine", metavar="NAME|FILE", shell_complete=offer_machines),
     *length_options(SETTABLE.values()),
     click.option(
         "--interpolator",

@@ -9,6 +9,7 @@ import click
 from parser.findings.messages import Message
 from sim.cli.check.options import check_options
 from sim.cli.spoken import Spoken, spoken
+from sim.cli.spoken.completing import offer_files
 from sim.cli.spread import Spread, pool_of, spread_options
 
 if TYPE_CHECKING:
@@ -28,7 +29,7 @@ _OF_FILES = {
 
 
 @click.command(cls=Spoken)
-@click.argument("files", nargs=-1, required=True, metavar="FILE|DIR|GLOB|-...")
+@click.argument("files", nargs=-1, required=True, metavar="FILE|DIR|GLOB|-...", shell_complete=offer_files)
 @check_options
 @spread_options
 def check(  # noqa: PLR0913 - click hands over each option by its name

@@ -10,6 +10,7 @@ from parser.findings.messages import Message
 from sim.cli.check.outputs import Output
 from sim.cli.dialect_options import READ_WITH, RegisterValue
 from sim.cli.lengths import length_options
+from sim.cli.spoken.completing import offer_machines
 from sim.cli.spoken.values import FilePath
 from sim.setup.wire import DIAMETER, SPARK_GAP
 from sim.show.findings import FORMATS
@@ -68,7 +69,7 @@ _MENDS = (
 )
 _WATCH = (click.option("--watch", is_flag=True),)
 _DEMANDS = (
-    click.option("--machine", metavar="NAME|FILE"),
+    click.option("--machine", metavar="NAME|FILE", shell_complete=offer_machines),
     *length_options((DIAMETER, SPARK_GAP)),
     click.option("--open", "may_stay_open", is_flag=True),
 )

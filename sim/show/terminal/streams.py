@@ -125,11 +125,39 @@ class Cleaned(io.TextIOBase):
             self.outlet.write(f"{harmless(line)}\n")
         return len(text)
 
+    @property
+    def buffer(self) -> "CleanedBytes":
+        """Where bytes go, such as those of click for completion in a shell."""
+        return CleanedBytes(self)
+
     def flush(self) -> None:
         """Hand over to the system what was written, also the beginning of a line."""
         begun, self._begun = self._begun, ""
         self.outlet.write(harmless(begun))
         self.outlet.flush()
+
+
+class CleanedBytes(io.RawIOBase):
+    """The bytes of `Cleaned`: UTF-8, made harmless as texts are, with line ends as they come."""
+
+    def __init__(self, cleaned: Cleaned) -> None:
+        self._cleaned = cleaned
+
+    def writable(self) -> bool:
+        """Yes."""
+        return True
+
+    def write(self, data: object) -> int:
+        """Write bytes, behind what was written before."""
+        text = bytes(memoryview(data)).decode("utf-8", "backslashreplace")  # type: ignore[arg-type]  # has bytes
+        self._cleaned.flush()
+        self._cleaned.outlet.write(_lines_and_columns(text).encode())
+        return len(text.encode())
+
+    def flush(self) -> None:
+        """Hand over to the system what was written."""
+        if not self.closed:
+            self._cleaned.flush()
 
 
 def prepare_streams() -> None:
@@ -174,6 +202,11 @@ def _to_nowhere(stream: TextIO) -> None:
     nowhere = os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, number)
     os.close(nowhere)
+
+
+def _lines_and_columns(text: str) -> str:
+    """A text made harmless, in which lines and columns stay apart: shells read what completes a word so."""
+    return "\n".join("\t".join(map(harmless, line.split("\t"))) for line in text.split("\n"))
 
 
 def _text(text: object) -> str:
