@@ -43,10 +43,10 @@ def open(  # noqa: A001 - named as the command
         say(words()("commands.written", names=", ".join(map(str, write_shortcut(shortcut)))))
         return
 
-    def ready(address: str) -> None:
+    def ready(address: str, way: Path) -> None:
         say(address)
         if not no_browser:
-            webbrowser.open(address)
+            webbrowser.open(way.as_uri())
 
     serve(_programs(file, from_icon=from_icon), port, ready)
 

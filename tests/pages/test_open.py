@@ -11,7 +11,7 @@ from axe import needs_axe, violations
 from browser import Browsers
 from drawings_dxf import drawn
 from open_tab import tab
-from opened_page import OpenedPage, opened_page
+from opened_page import OpenedPage, Recorder, opened_page
 from page_checks import complaints
 from places import ROOT
 
@@ -55,6 +55,15 @@ def test_a_program_shows_at_once(browsers: Browsers, keyhole: OpenedPage) -> Non
             "() => new Set(document.querySelector('#picture').getContext('2d').getImageData(0, 0, 800, 400).data).size"
         )
         assert drawn > 3
+
+
+def test_a_file_leads_the_browser_to_the_page(browsers: Browsers, tmp_path: Path) -> None:
+    recorder = Recorder(tmp_path)
+    with opened_page(KEYHOLE, browser=recorder.program) as served, tab(browsers, served.address) as shown:
+        shown.page.goto(recorder.heard())
+        shown.page.wait_for_url(served.address)
+        shown.waits_for("pass")
+        shown.asked.remove(recorder.heard())
 
 
 @needs_axe

@@ -15,7 +15,7 @@ class Tab:
     """A page of the server, and what went wrong on it."""
 
     def __init__(self, page: "Page") -> None:
-        self.page, self.found = page, list[str]()
+        self.page, self.found, self.asked = page, list[str](), list[str]()
         page.on("console", lambda one: self.found.append(one.text) if one.type in {"error", "warning"} else None)
         page.on("pageerror", lambda error: self.found.append(str(error)))
         page.on("dialog", lambda shown: self.found.append(shown.message))
@@ -54,11 +54,10 @@ def tab(browsers: Browsers, address: str, width: int = 1280, lang: str = "en") -
         closing.callback(lent.context.close)
         lent.context.set_default_timeout(WAIT_MS)
         shown = Tab(lent.page)
-        asked: list[str] = []
-        shown.page.on("request", lambda one: asked.append(one.url))
+        shown.page.on("request", lambda sent: shown.asked.append(sent.url))
         shown.page.goto(address)
         yield shown
         assert shown.found == []
-        assert [url for url in asked if not url.startswith((address, "blob:", "data:"))] == []
+        assert [url for url in shown.asked if not url.startswith((address, "blob:", "data:"))] == []
         closing.pop_all()
     contexts.take_back(lent)

@@ -1,9 +1,11 @@
 """``drycut open`` in a process of its own, and requests to it as any program of the machine can make them."""
 
 import http.client
+import os
 import signal
 import subprocess
 import sys
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -47,11 +49,33 @@ class OpenedPage:
         return self.process.wait(LONGEST_S)
 
 
+class Recorder:
+    """In place of a browser: what it was opened with."""
+
+    def __init__(self, folder: Path) -> None:
+        self._heard, program = folder / "heard", folder / "browser"
+        program.write_text(f'#!/bin/sh\nprintf %s "$1" > {self._heard}.part; mv {self._heard}.part {self._heard}\n')
+        program.chmod(0o755)
+        self.program = str(program)
+
+    def heard(self) -> str:
+        """The one argument of its command line, once it came."""
+        end_s = time.monotonic() + LONGEST_S
+        while not self._heard.exists():
+            assert time.monotonic() < end_s
+            time.sleep(0.02)
+        return self._heard.read_text()
+
+
 @contextmanager
-def opened_page(file: Path | None = None, *options: str) -> Iterator[OpenedPage]:
-    """The server of a file; it is ended behind the block."""
-    command = [sys.executable, "-m", "drycut", "open", *([str(file)] if file else []), "--no-browser", *options]
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=ROOT)
+def opened_page(file: Path | None = None, *options: str, browser: str = "") -> Iterator[OpenedPage]:
+    """The server of a file, which opens a browser where one is given; it is ended behind the block."""
+    shown = () if browser else ("--no-browser",)
+    command = [sys.executable, "-m", "drycut", "open", *([str(file)] if file else []), *shown, *options]
+    environment = {**os.environ, "BROWSER": browser}
+    process = subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=ROOT, env=environment
+    )
     assert process.stdout is not None
     try:
         yield OpenedPage(process, process.stdout.readline().strip())

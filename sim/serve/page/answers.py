@@ -58,7 +58,7 @@ def file_of(read: ReadFile, text: str) -> bytes:
     whole = "".join(part for line, end in zip(text.split("\n"), [*ends, ""], strict=True) for part in (line, end))
     try:
         return encode_text(whole, read.encoding)
-    except (UnicodeEncodeError, LookupError):
+    except (ValueError, LookupError):  # it lacks a letter, or is no name of an encoding
         return whole.encode("utf-8", "replace")
 
 

@@ -1,33 +1,49 @@
 """A process of drycut's own: it is told one thing, tells others a line each, and can be ended at any moment.
 
-How the process of a job speaks to the server: it is asked in JSON on stdin, and tells lines of JSON on stdout.
+How the process of a job speaks to the server: it is asked by a line of JSON on stdin, and tells lines of JSON on
+stdout. The server holds its end of stdin as long as it lives: where that closes, the process ends too.
 """
 
 import asyncio
 import contextlib
 import json
+import os
 import sys
+import threading
 from collections.abc import AsyncIterator, Callable, Mapping, Sequence
 from typing import Any, Final
 
-from parser.files.reading import read_stdin
 from parser.findings.errors import DrycutError
 from sim.base.progress import Progress
 from sim.show.terminal.printer import write
 
 PageRequest = dict[str, str]
 """What is asked of a job: texts by their names, of which the page says some."""
+_STDIN: Final = 0
 _STEPS: Final = 100
 """Of a stage, that are told."""
 
 
 def do(jobs: Mapping[str, Callable[[PageRequest], dict[str, Any]]]) -> None:
     """Do the job that is asked for; the last line says what came of it."""
-    query = json.loads(read_stdin())
+    query = asked()
     try:
         _tell(done=jobs[query["job"]](query))
     except DrycutError as error:
         _tell(wrong=error.in_both()._asdict())
+
+
+def asked() -> Any:
+    """What this process is asked for. From then on it ends when the server does, however that ends."""
+    line = sys.stdin.buffer.readline()
+    threading.Thread(target=_end_with_server, daemon=True).start()
+    return json.loads(line)
+
+
+def _end_with_server() -> None:
+    while os.read(_STDIN, 1):  # by its number: a lock of Python's own stream would be held when this process ends
+        pass
+    os._exit(1)
 
 
 def telling(stages: Sequence[str]) -> Progress:
@@ -61,7 +77,7 @@ class Child:
     async def tells(self, query: object) -> AsyncIterator[Any]:
         """What it tells once it was told what is asked, until it ends; all of it is JSON.
 
-        Nothing of the page reaches a command line: it goes through a pipe.
+        Nothing of the page reaches a command line: it goes through a pipe, which stays open until then.
         """
         stdin, stdout = self._process.stdin, self._process.stdout
         assert stdin is not None  # noqa: S101 - asked for
@@ -69,11 +85,11 @@ class Child:
         with contextlib.suppress(BrokenPipeError, ConnectionResetError):
             stdin.write(f"{json.dumps(query)}\n".encode())
             await stdin.drain()
-        stdin.close()
         async for line in stdout:
             if line.endswith(b"\n"):  # else it was ended in the middle of it
                 yield json.loads(line)
         await self._process.wait()
+        stdin.close()
 
     def end(self) -> None:
         """End it at once."""

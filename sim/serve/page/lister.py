@@ -1,4 +1,4 @@
-"""The process that checks the programs of a folder: names and files come as JSON on stdin, rows go to stdout in order.
+"""The process that checks the programs of a folder: files come as a line of JSON on stdin, rows go to stdout in order.
 
 It has processes of its own, one a core; they end with it.
 """
@@ -7,11 +7,12 @@ import json
 from pathlib import Path
 from typing import Any, Final
 
-from parser.files.reading import read_bytes, read_stdin
+from parser.files.reading import read_bytes
 from parser.findings.errors import FileUnreadableError
 from parser.findings.messages import in_both
 from sim.base.workers.processes import Processes
 from sim.base.workers.rounds import DIED, Lost, in_order, results
+from sim.serve.page.child import asked
 from sim.serve.page.row import refused, row_or_why
 from sim.show.terminal.printer import write
 from sim.show.texts.phrases import same
@@ -22,7 +23,7 @@ _AT_ONCE: Final = 8
 
 def main() -> None:
     """Check all files that are asked for."""
-    files = [(name, Path(file)) for name, file in json.loads(read_stdin())]
+    files = [(name, Path(file)) for name, file in asked()]
     rows = in_order(results(_row, enumerate(files), Processes(), _AT_ONCE))
     for (name, _), row in zip(files, rows, strict=True):
         write(f"{json.dumps(refused(name, same(DIED)) if isinstance(row, Lost) else row)}\n", "json")

@@ -79,7 +79,12 @@ async def told(request: Request, *names: str) -> dict[str, str]:
         raise BadRequestError from error
     if not isinstance(texts, dict) or not all(isinstance(texts.get(name), str) for name in names):
         raise BadRequestError
-    return {name: texts[name] for name in names}
+    return {name: _whole(texts[name]) for name in names}
+
+
+def _whole(text: str) -> str:
+    """A text with U+FFFD in place of each half of a surrogate pair, which no encoding has; all places stay."""
+    return text.encode("utf-16", "surrogatepass").decode("utf-16", "replace")
 
 
 def name_of(work: Work) -> str:

@@ -15,6 +15,7 @@ import signal
 import socket
 import sys
 from collections.abc import Awaitable, Callable, Iterator, Sequence
+from pathlib import Path
 from types import FrameType
 from typing import Final, NamedTuple
 
@@ -87,13 +88,23 @@ class Guard:
             return 421
         if headers.get(b"origin", self._address.origin.encode()).decode("latin-1") != self._address.origin:
             return 403
-        if headers.get(b"sec-fetch-site", b"same-origin") not in {b"same-origin", b"none"}:
+        token, _, inner = scope["path"].lstrip("/").partition("/")
+        is_own = headers.get(b"sec-fetch-site", b"same-origin") in {b"same-origin", b"none"}
+        if not is_own and (inner or not _goes_to_a_page(scope, headers)):
             return 403
-        token = scope["path"].lstrip("/").partition("/")[0]
         if not hmac.compare_digest(token.encode("utf-8", "replace"), self._address.token.encode()):
             return 404
         length = headers.get(b"content-length", b"0")
         return 413 if not length.isdigit() or int(length) > MOST_BYTES else 0
+
+
+def _goes_to_a_page(scope: Scope, headers: dict[bytes, bytes]) -> bool:
+    """Whether a tab of the browser goes to the address, as from the file that leads there: no page can read it then."""
+    return bool(
+        scope["method"] == "GET"
+        and headers.get(b"sec-fetch-mode") == b"navigate"
+        and headers.get(b"sec-fetch-dest") == b"document"
+    )
 
 
 async def _answer(send: Send, status: int, more: Sequence[tuple[bytes, bytes]] = ()) -> None:
@@ -125,6 +136,15 @@ def _with_headers(send: Send) -> Send:
 
 _HOST: Final = "127.0.0.1"
 _LOOK_S: Final = 0.2
+_WAY: Final = "drycut.html"
+_WAY_PAGE: Final = """\
+<!DOCTYPE html>
+<meta charset="utf-8">
+<meta name="referrer" content="no-referrer">
+<meta http-equiv="refresh" content="0; url={url}">
+<title>drycut</title>
+<a href="{url}">drycut</a>
+"""
 
 
 class PortError(DrycutError, OSError):
@@ -139,10 +159,11 @@ class _Server(uvicorn.Server):
         yield
 
 
-def serve(programs: Programs, port: int, ready: Callable[[str], None]) -> None:
-    """Serve the page of programs until it is over; `ready` is told the address once it can be opened.
+def serve(programs: Programs, port: int, ready: Callable[[str, Path], None]) -> None:
+    """Serve the page of programs until it is over; `ready` is told the address once it can be opened, and a way there.
 
-    Port 0 is any free one. PortError where the port cannot be had.
+    The way is a page that leads to the address, in a file that only its owner reads: any user of the machine sees what
+    stands in a command line, such as that of a browser. Port 0 is any free one. PortError where the port cannot be had.
     """
     life = Life()
     with _ended_by_signals(life), _listening(port) as listening, scratch() as folder:
@@ -157,7 +178,16 @@ def serve(programs: Programs, port: int, ready: Callable[[str], None]) -> None:
             timeout_graceful_shutdown=2,
         )
         server = _Server(config)
-        asyncio.run(_run(server, listening, life, lambda: ready(address.url), [runs.cancel, programs.end]))
+        way = _way_to(address, folder)
+        asyncio.run(_run(server, listening, life, lambda: ready(address.url, way), [runs.cancel, programs.end]))
+
+
+def _way_to(address: Address, folder: Path) -> Path:
+    """A page that leads to an address, written into a folder that others may not look into."""
+    file = folder / _WAY
+    file.touch(0o600)
+    file.write_text(_WAY_PAGE.format(url=address.url), "utf-8")
+    return file
 
 
 async def _run(

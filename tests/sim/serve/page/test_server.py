@@ -7,17 +7,19 @@ import random
 import re
 import signal
 import socket
+import stat
 import subprocess
 import sys
 import time
 import zipfile
 from collections.abc import Iterator
 from pathlib import Path
+from urllib.parse import urlsplit
 
 import pytest
 from awaited import awaited
 from command import run_command
-from opened_page import OpenedPage, opened_page
+from opened_page import OpenedPage, Recorder, opened_page
 from PIL import Image
 from places import ROOT
 
@@ -94,6 +96,53 @@ def test_whoever_is_not_the_page_gets_no_answer(
         answer = served.ask(path, b"{}", method, **headers)
         assert answer.status == status or (path == "first" and not headers)
         assert b"B9900" not in answer.body
+
+
+@pytest.mark.parametrize(
+    ("path", "dest", "method", "status"),
+    [
+        ("", "document", "GET", 200),  # from the file that leads to the page
+        ("", "iframe", "GET", 403),
+        ("", "document", "POST", 403),
+        ("first", "document", "POST", 403),
+        ("run/1/report.html", "document", "GET", 403),
+        ("/wrong/", "document", "GET", 404),
+    ],
+)
+def test_a_tab_may_go_to_the_page_from_elsewhere_and_nothing_else_may(
+    served: OpenedPage, path: str, dest: str, method: str, status: int
+) -> None:
+    headers = {"Sec_Fetch_Site": "cross-site", "Sec_Fetch_Mode": "navigate", "Sec_Fetch_Dest": dest}
+    assert served.ask(path, b"{}", method, **headers).status == status
+
+
+def test_a_browser_is_led_to_the_page_by_a_file_that_only_its_owner_reads(tmp_path: Path) -> None:
+    recorder = Recorder(tmp_path)
+    with opened_page(None, browser=recorder.program) as served:
+        way = recorder.heard()
+        token = served.path.strip("/")
+        assert token not in way
+        file = Path(urlsplit(way).path)
+        assert token in file.read_text("utf-8")
+        assert [stat.S_IMODE(each.stat().st_mode) for each in (file.parent, file)] == [0o700, 0o600]
+    assert not file.exists()
+
+
+def test_halves_of_surrogate_pairs_are_answered(served: OpenedPage) -> None:
+    half = "B1\ud800\nDD\n"
+    answer = served.ask("lines", json.dumps({"before": half, "after": "DD\n"}))
+    assert answer.status == 200
+    assert json.loads(answer.body)["places"][0]["before"] == "B1\ufffd"
+    assert served.ask("check", json.dumps({"name": half, "text": half, "number": ""})).status == 200
+    saved = {"text": half, "opened": half, "encoding": "utf-8", "newline": "\n"}
+    assert served.ask("save", json.dumps(saved)).body == "B1\ufffd\nDD\n".encode()
+
+
+@pytest.mark.parametrize("encoding", ["\0", "utf-8\0", "no such", "hex", "undefined", "\ud800", "x" * 10_000])
+def test_an_encoding_that_is_none_is_utf_8(served: OpenedPage, encoding: str) -> None:
+    saved = {"text": "B1·\n", "opened": "B1\n", "encoding": encoding, "newline": "\n"}
+    answer = served.ask("save", json.dumps(saved))
+    assert (answer.status, answer.body) == (200, "B1·\n".encode())
 
 
 def test_only_the_page_itself_can_be_got_by_an_address(served: OpenedPage) -> None:
