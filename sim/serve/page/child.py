@@ -26,14 +26,14 @@ _STEPS: Final = 100
 
 def do(jobs: Mapping[str, Callable[[PageRequest], dict[str, Any]]]) -> None:
     """Do the job that is asked for; the last line says what came of it."""
-    query = asked()
+    query = read_request()
     try:
         _tell(done=jobs[query["job"]](query))
     except DrycutError as error:
         _tell(wrong=error.in_both()._asdict())
 
 
-def asked() -> Any:
+def read_request() -> Any:
     """What this process is asked for. From then on it ends when the server does, however that ends."""
     line = sys.stdin.buffer.readline()
     threading.Thread(target=_end_with_server, daemon=True).start()

@@ -12,7 +12,7 @@ from parser.findings.errors import FileUnreadableError
 from parser.findings.messages import in_both
 from sim.base.workers.processes import Processes
 from sim.base.workers.rounds import DIED, Lost, in_order, results
-from sim.serve.page.child import asked
+from sim.serve.page.child import read_request
 from sim.serve.page.row import refused, row_or_why
 from sim.show.terminal.printer import write
 from sim.show.texts.phrases import same
@@ -23,7 +23,7 @@ _AT_ONCE: Final = 8
 
 def main() -> None:
     """Check all files that are asked for."""
-    files = [(name, Path(file)) for name, file in asked()]
+    files = [(name, Path(file)) for name, file in read_request()]
     rows = in_order(results(_row, enumerate(files), Processes(), _AT_ONCE))
     for (name, _), row in zip(files, rows, strict=True):
         write(f"{json.dumps(refused(name, same(DIED)) if isinstance(row, Lost) else row)}\n", "json")
