@@ -1,5 +1,8 @@
 """``trace.npz``: every step and every sample of a run, as numpy arrays; written where it is asked for, and read."""
 
+import lzma
+import struct
+import tokenize
 import zipfile
 import zlib
 from collections.abc import Mapping
@@ -63,11 +66,33 @@ def read_trace(path: Path | str) -> StoredTrace:
     """The arrays of a ``trace.npz``. FileUnreadableError where there is none, or where it is something else."""
     try:
         with Path(path).open("rb") as file, np.load(file, allow_pickle=False) as arrays:
-            return StoredTrace(**{field.name: arrays[field.name] for field in fields(StoredTrace)})
+            trace = StoredTrace(**{field.name: arrays[field.name] for field in fields(StoredTrace)})
     except OSError as error:
         raise FileUnreadableError("in-file", file=path, message=system_message(error)) from None
-    except (ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile, zlib.error):
+    except _DAMAGED:
         raise FileUnreadableError("no-trace", path=path) from None
+    if not _is_whole(trace):
+        raise FileUnreadableError("no-trace", path=path)
+    return trace
+
+
+_DAMAGED: Final = (
+    *(ValueError, LookupError, TypeError, ArithmeticError, EOFError, MemoryError, SyntaxError, RuntimeError),
+    *(zipfile.BadZipFile, zlib.error, lzma.LZMAError, struct.error, tokenize.TokenError),
+)
+"""What zipfile and numpy raise of a damaged archive: a method that they do not know, a head that is no Python."""
+
+
+def _is_whole(trace: StoredTrace) -> bool:
+    """Whether the arrays are of the types and sizes that are written."""
+    arrays = {field.name: getattr(trace, field.name) for field in fields(StoredTrace)}
+    steps, samples = len(np.atleast_1d(trace.step_t_s)), len(np.atleast_1d(trace.t_s))
+    sizes = {"step_x_um": steps + 1, "step_y_um": steps + 1, "step_block": steps, "step_t_s": steps}
+    counts = {"step_x_um", "step_y_um", "step_block", "block"}
+    return all(
+        array.shape == (sizes.get(name, samples),) and array.dtype == (np.int32 if name in counts else np.float64)
+        for name, array in arrays.items()
+    )
 
 
 def write_trace(folder: Path, run: DryRun, steps: Mapping[str, Path]) -> None:

@@ -3,6 +3,7 @@
 import hashlib
 import json
 import os
+import random
 import subprocess
 import sys
 from dataclasses import fields
@@ -10,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from depth import cases
 from places import ROOT
 from runs import plain_scenario
 
@@ -86,6 +88,36 @@ def test_what_is_no_trace_is_told_as_such(tmp_path: Path, content: bytes | str |
         file.write_bytes(content)
     with pytest.raises(FileUnreadableError, match=r"trace\.npz"):
         read_trace(file)
+
+
+def test_a_damaged_trace_is_told_as_such_or_read_whole(tmp_path: Path) -> None:
+    run_into(tmp_path, parse_program(TEXT), plain_scenario(), silent, trace=True)
+    sound, file, rng = (tmp_path / "trace.npz").read_bytes(), tmp_path / "damaged.npz", random.Random(20261128)
+    outcomes = {True: 0, False: 0}
+    for _ in cases(300, 30_000):
+        data = bytearray(sound)
+        for _ in range(rng.randint(1, 6)):
+            near_end = rng.random() < 0.5  # the directory of a zip stands at its end
+            data[-1 - rng.randrange(900) if near_end else rng.randrange(len(data))] = rng.randrange(256)
+        file.write_bytes(data[: rng.randrange(len(data))] if rng.random() < 0.2 else data)
+        try:
+            trace = read_trace(file)
+        except FileUnreadableError as error:
+            outcomes[False] += "damaged.npz" in str(error)
+        else:
+            outcomes[True] += len(trace.t_s) == len(trace.block)
+    assert sum(outcomes.values()) == len(cases(300, 30_000))
+    assert min(outcomes.values()) > 0
+
+
+@pytest.mark.parametrize("name", ["t_s", "block", "step_t_s", "step_x_um"])
+def test_a_trace_with_an_array_of_another_kind_is_none(tmp_path: Path, name: str) -> None:
+    run_into(tmp_path, parse_program(TEXT), plain_scenario(), silent, trace=True)
+    arrays = dict(np.load(tmp_path / "trace.npz"))
+    for other in (arrays[name][1:], arrays[name].astype(np.float32), arrays[name][:, None], arrays[name][0]):
+        np.savez(tmp_path / "other.npz", **{**arrays, name: other})
+        with pytest.raises(FileUnreadableError, match=r"other\.npz"):
+            read_trace(tmp_path / "other.npz")
 
 
 def test_a_refused_run_writes_nothing(tmp_path: Path) -> None:
