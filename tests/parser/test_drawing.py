@@ -396,6 +396,19 @@ def test_a_block_that_inserts_itself_or_is_missing_ends_in_a_note(tmp_path):
     assert any("INSERT of A" in note and "INSERT of NONE" in note for note in notes(drawing))
 
 
+@pytest.mark.parametrize("name", ["NONE", "EMPTY"])
+def test_an_array_that_places_nothing_costs_what_one_insert_does(tmp_path, monkeypatch, name):
+    monkeypatch.setattr(blocks, "MOST_ENTITIES", 10)
+    document = new()
+    document.blocks.new("EMPTY")
+    array = {"row_count": 30_000, "column_count": 30_000, "row_spacing": 1.0, "column_spacing": 1.0}
+    document.modelspace().add_blockref(name, (0, 0), dxfattribs=array)
+    document.modelspace().add_line((0, 0), (1, 0))
+    drawing = read_drawing(saved(document, tmp_path))
+    assert len(drawing.curves) == 1
+    assert any("1 INSERT of NONE" in note for note in notes(drawing)) == (name == "NONE")
+
+
 def test_blocks_that_multiply_without_end_are_refused(tmp_path, monkeypatch):
     monkeypatch.setattr(blocks, "MOST_ENTITIES", 1000)
     document = new()

@@ -147,9 +147,13 @@ def _into(insert: Insert, placed: Placed, inside: _Into, layers: _Layers) -> _In
     return _Into(iter(block), len(block), place, placed.layer, gives, (*inside.blocks, name))
 
 
-def _each_of(insert: Insert, placed: Placed, inside: _Into, layers: _Layers) -> _Into:
-    """The INSERTs of an array, counted before they are made: each of them opens what the first one does."""
+def _each_of(insert: Insert, placed: Placed, inside: _Into, layers: _Layers) -> _Into | None:
+    """The INSERTs of an array, counted before they are made: each of them opens what the first one does.
+
+    So none is made where that places nothing. None where it cannot be opened.
+    """
     first = next(insert.multi_insert(), None)
     opened = _opened(first, placed, inside, layers) if first else None
-    least = insert.mcount * (1 + (opened.least if opened else 0)) if first else 0
-    return inside._replace(entities=iter(insert.multi_insert()), least=least)
+    if opened is None or not opened.least:
+        return opened
+    return inside._replace(entities=iter(insert.multi_insert()), least=insert.mcount * (1 + opened.least))
