@@ -8,6 +8,7 @@ from parser import units
 from parser.drawing.dxf import blocks, document
 from parser.drawing.plane import flat, splined
 from parser.files import reading
+from parser.iso.path import flow
 from parser.threeb import reader
 from sim.base.workers import cluster
 from sim.check import travel
@@ -21,6 +22,7 @@ PAGE = (ROOT / "docs" / "limits.md").read_text("utf-8")
 VALUES = {
     "size of a file, or of the standard input": f"{reading.MOST_MB} MB",
     "blocks of a program": reader.MOST_BLOCKS,
+    "blocks that calls of subprograms run": flow.LONGEST,
     "a number of a block, µm": units.MAX_WORD_UM,
     "a start point or a printed end, µm from 0": units.MAX_PLACE_UM,
     "steps of 1 µm": travel.MAX_STEPS,

@@ -94,8 +94,8 @@ class GivenColumns:
 
 
 DEEPEST = 10
-LONGEST = 2_000_000
-"""Calls within calls, and blocks in all, that are followed."""
+LONGEST = 400_000
+"""Calls within calls, and blocks in all, that are followed: their checks take some 140 MB, and 3 s."""
 _LABELS = 10_000
 """Numbers of programs have four digits where P may say more than one."""
 

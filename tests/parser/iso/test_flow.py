@@ -1,5 +1,7 @@
 """The order in which blocks run: calls, returns, ends, and what cannot be followed or never runs."""
 
+import tracemalloc
+
 import pytest
 
 from parser.iso.path import flow
@@ -99,6 +101,18 @@ def test_calls_of_calls_are_followed_up_to_a_bound(monkeypatch: pytest.MonkeyPat
     program = read(f"G91 G01\nM98 P1\nM02\n{subprograms}N9 X1\nM99")
     assert {one.values["what"] for one in program.findings if one.code == "ISO400"} == {"call-too-long"}
     assert len(program.toolpath) <= flow.LONGEST
+
+
+def test_calls_that_run_millions_of_blocks_take_little_memory() -> None:
+    text = "G91 G01\nM98 P1 L999\nM02\nN1 M98 P2 L999\nM99\nN2 X1\nX-1\nG02 X2 Y0 I1 J0\nM99"
+    tracemalloc.start()
+    try:
+        program = read(text)
+        _, most = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert [each.values["what"] for each in program.findings if each.code == "ISO400"] == ["call-too-long"]
+    assert most < 200e6
 
 
 def test_a_motion_word_counts_from_when_it_runs() -> None:
