@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from parser.dialect.at_block import at_block
+from parser.findings.codes import Severity
 from parser.findings.facts import OddShape, TightCorner
 from parser.findings.findings import Fact, Finding, Value
 from parser.geometry.curves import Ints
@@ -34,14 +35,16 @@ def sense_findings(program: Program, contour: Ints) -> list[Finding]:
     contour = _by_side(toolpath, contour)
     found = [_reversed(program, row) for row in retraced_arcs(toolpath, contour).tolist()]
     arcs = reversed_arcs(toolpath, contour)
-    for row, is_major, sweep, other_sweep in zip(*(column.tolist() for column in arcs), strict=True):
+    for row, is_major, at_both_ends, sweep, other_sweep in zip(*(column.tolist() for column in arcs), strict=True):
+        graver = Severity.ERROR if at_both_ends else None
         if is_major:
             written, other = _senses(program, row)
             degrees = {"sweep": round(abs(math.degrees(sweep))), "minor": round(abs(math.degrees(other_sweep)))}
             values: dict[str, Value] = {"written": written, "other": other, **degrees}
-            found.append(at_block(toolpath, program.lines, "3B211", row, Field.SENSE, **values))
+            finding = at_block(toolpath, program.lines, "3B211", row, Field.SENSE, **values)
         else:
-            found.append(_reversed(program, row))
+            finding = _reversed(program, row)
+        found.append(finding._replace(graver=graver))
     return found
 
 

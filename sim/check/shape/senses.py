@@ -34,12 +34,15 @@ class ReversedArcs(NamedTuple):
         Their rows.
     is_major
         True on arcs of more than a half turn: the smaller arc between the same ends fits.
+    at_both_ends
+        Whether there is a cusp at both ends: no part is drawn so.
     sweep_rad, other_sweep_rad
         Signed sweep as programmed, and the one that fits.
     """
 
     row: Ints
     is_major: Bools
+    at_both_ends: Bools
     sweep_rad: Floats
     other_sweep_rad: Floats
 
@@ -75,17 +78,17 @@ class _Joints(NamedTuple):
 
 def reversed_arcs(toolpath: Toolpath, contour_of_row: Ints) -> ReversedArcs:
     """Arcs of the contours (n,), −1 on jumps, that look reversed, in the order they are cut."""
-    row = np.empty(0, dtype=np.int64)
+    row, at_both_ends = np.empty(0, dtype=np.int64), np.empty(0, dtype=np.bool_)
     if toolpath.is_arc.any():
         ways, chain = directions(toolpath), _chain(toolpath, contour_of_row)
-        row = _suspects(toolpath, chain, ways)
+        row, at_both_ends = _suspects(toolpath, chain, ways)
         if len(row):
             # A loop's last block goes over into its first one, not into the lead-out.
             wanted = np.flatnonzero(np.bincount(contour_of_row[row]))
             chain = _with_loops(toolpath, chain, contour_of_row, wanted)
-            row = _suspects(toolpath, chain, ways)
+            row, at_both_ends = _suspects(toolpath, chain, ways)
     sweep = toolpath.sweep_rad[row]
-    return ReversedArcs(row, toolpath.is_major[row], sweep, sweep - 2.0 * np.pi * np.sign(sweep))
+    return ReversedArcs(row, toolpath.is_major[row], at_both_ends, sweep, sweep - 2.0 * np.pi * np.sign(sweep))
 
 
 def retraced_arcs(toolpath: Toolpath, contour_of_row: Ints) -> Ints:
@@ -145,8 +148,11 @@ def _with_loops(toolpath: Toolpath, chain: _Chain, contour_of_row: Ints, wanted:
     return chain._replace(before=before, after=after, joined=joined)
 
 
-def _suspects(toolpath: Toolpath, chain: _Chain, ways: Directions) -> Ints:
-    """Arcs, as rows, that the other way round would turn every cusp smooth and no joint worse."""
+def _suspects(toolpath: Toolpath, chain: _Chain, ways: Directions) -> tuple[Ints, Bools]:
+    """Arcs, as rows (k,), that the other way round would turn every cusp smooth and no joint worse.
+
+    And whether (k,) there is a cusp at both ends.
+    """
     before = _joints(toolpath, chain.row[chain.before], chain.row, ways)
     after = _joints(toolpath, chain.row, chain.row[chain.after], ways)
     joined = chain.joined, chain.joined[chain.after]
@@ -160,7 +166,7 @@ def _suspects(toolpath: Toolpath, chain: _Chain, ways: Directions) -> Ints:
     # Where the block across a cusp is as much a suspect, it is the tip of a crescent or of a star.
     cusps = np.where(suspect, cusp[0].astype(np.int64) + cusp[1], 0)
     suspect &= ~(cusp[0] & (cusps[chain.before] >= cusps)) & ~(cusp[1] & (cusps[chain.after] >= cusps))
-    return chain.row[suspect]
+    return chain.row[suspect], (cusp[0] & cusp[1])[suspect]
 
 
 def _joints(toolpath: Toolpath, this: Ints, other: Ints, ways: Directions) -> _Joints:

@@ -8,7 +8,10 @@ from hypothesis import strategies as st
 from paths import Pen
 from runs import codes, run_text
 
+from parser.findings.codes import Severity
+from parser.program import parse_program
 from parser.shape.contours import contour_rows
+from sim.check.file_check import check_program
 from sim.check.shape.senses import ReversedArcs, retraced_arcs, reversed_arcs
 
 HALF = math.pi / 2
@@ -43,6 +46,7 @@ def test_a_reversed_corner_is_named(corner: int, lead: bool) -> None:
     arcs = found(rounded(corner, lead))
     assert arcs.row.tolist() == [2 * corner + 1 + lead]
     assert arcs.is_major.tolist() == [True]
+    assert arcs.at_both_ends.tolist() == [True]
     assert arcs.sweep_rad == pytest.approx([-3 * HALF], abs=1e-2)
     assert arcs.other_sweep_rad == pytest.approx([HALF], abs=1e-2)
 
@@ -202,3 +206,16 @@ def test_an_arc_turns_at_both_its_ends_or_at_none() -> None:
     # One smooth joint tells that the arc runs as it was meant to.
     pen = Pen(0, -1000).to(3000, -1000).arc(3000, 0, -math.pi).to(9000, 1000)
     assert found(pen).row.tolist() == []
+
+
+@pytest.mark.parametrize(("sense", "severity"), [("NR2", []), ("SR1", [(4, Severity.ERROR)])])
+def test_a_cusp_at_both_ends_is_an_error(sense: str, severity: list[tuple[int, Severity]]) -> None:
+    program = f"B5000B0B5000GXL1 B0B2900B5800GXNR4 B10000B0B10000GXL3 B0B2900B5800GX{sense} B5000B0B5000GXL1 DD"
+    findings = check_program(parse_program(program)).findings
+    assert [(each.block, each.severity) for each in findings if each.code == "3B306"] == severity
+
+
+def test_of_a_cusp_at_one_end_alone_it_is_told() -> None:
+    arcs = found(Pen().to(9000, 0).arc(9000, 3000, -math.pi))
+    assert arcs.row.tolist() == [1]
+    assert arcs.at_both_ends.tolist() == [False]
