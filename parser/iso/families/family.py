@@ -13,6 +13,7 @@ import numpy as np
 
 from parser.dialect.choices import Choices
 from parser.dialect.reader import Assumption
+from parser.findings.codes import Severity
 from parser.findings.facts import ReadAs
 from parser.findings.findings import Finding
 from parser.geometry.curves import extents
@@ -204,6 +205,7 @@ def _first_move(listing: Listing) -> int:
 
 
 _LEAST_UM, _MOST_UM = 500.0, 1e6  # no part is smaller than 0.5 mm, no table larger than 1 m
+_KERF_UM, _BEYOND_UM = 100.0, 1e7  # the thinnest wire in common use is 0.1 mm wide
 _FEW = 0.2  # whole numbers for each one with a point: more are a way of writing
 _UNITS = ("mm", "um", "inch")
 
@@ -264,13 +266,14 @@ def _other_centers(seen: MarksSeen, of: Profile, arcs: Agreement) -> Iterator[Fi
 
 
 def _other_unit(seen: MarksSeen, of: Profile, toolpath: Toolpath) -> Iterator[Finding]:
-    """ISO216 at the first length."""
+    """ISO216 at the first length; an error where all of the path would lie within a kerf, or be beyond any table."""
     size_um = _size_um(toolpath)
     fitting = None if not size_um or _LEAST_UM <= size_um <= _MOST_UM else _fitting(seen, of, size_um)
     if fitting:
         names = {"unit": f"unit-{fitting.unit}", "name": fitting.unit}
         first = int(seen.coordinates[0])
-        yield seen.listing.at_word("ISO216", first, size=size_um, fits=fitting.size_um, **names)
+        found = seen.listing.at_word("ISO216", first, size=size_um, fits=fitting.size_um, **names)
+        yield found._replace(graver=None if _KERF_UM <= size_um <= _BEYOND_UM else Severity.ERROR)
 
 
 def _fitting(seen: MarksSeen, read: Profile, size_um: float) -> _Fitting | None:

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from parser.dialect.choices import Choices
+from parser.findings.codes import Severity
 from parser.findings.findings import Finding
 from parser.program import Program, parse_program
 
@@ -149,6 +150,24 @@ def test_a_path_without_the_size_of_a_part_is_told_with_the_unit_in_which_it_has
 ) -> None:
     program = read(f"G92 X0 Y0\nG90 G91\nG01 X{size:g} Y0\nX0 Y{size:g}\nM02\n".replace("G90 ", ""), **choices)
     assert [finding.values["name"] for finding in told(program, "ISO216")] == [unit] * bool(unit)
+
+
+@pytest.mark.parametrize(
+    ("size", "choices", "severity"),
+    [
+        (99, {}, Severity.ERROR),
+        (100, {}, Severity.WARNING),
+        (499, {}, Severity.WARNING),
+        (30, {"dialect": "fast-wire"}, Severity.ERROR),
+        (9_000, {"dialect": "classroom"}, Severity.WARNING),
+        (20_000, {"dialect": "classroom"}, Severity.ERROR),
+    ],
+)
+def test_a_path_within_a_kerf_or_beyond_any_table_is_an_error_where_another_unit_fits(
+    size: int, choices: dict[str, str], severity: Severity
+) -> None:
+    program = read(f"G92 X0 Y0\nG91\nG01 X{size} Y0\nX0 Y{size}\nM02\n", **choices)
+    assert [finding.severity for finding in told(program, "ISO216")] == [severity]
 
 
 @pytest.mark.parametrize(
