@@ -10,10 +10,11 @@ from collections.abc import Iterator
 import numpy as np
 
 from parser.dialect.at_block import at_block
+from parser.findings.codes import Severity
 from parser.findings.facts import WrongBlock
 from parser.findings.findings import Finding
 from parser.geometry.along import places
-from parser.geometry.curves import Bools, Curves, Floats, Ints, total_before
+from parser.geometry.curves import Bools, Curves, Floats, Ints, is_inside, total_before
 from parser.geometry.distance import distance_to_curves
 from parser.program import Program
 from parser.shape.contours import runs
@@ -75,7 +76,9 @@ _APART_UM = 1000.0
 def uncut_jump_findings(program: Program, contour: Ints, passes: Passes) -> list[Finding]:
     """Finding 3B310 at the first line cut on the way from a closed figure to the next one.
 
-    `contour` (n,) is each row's contour, −1 where it has none. By its hole the wire goes to the next pass over an edge.
+    It is an error where the way first goes into the figure that is just closed: what is in there is free, and nobody
+    cuts a slit from there. `contour` (n,) is each row's contour, −1 where it has none. By its hole the wire goes to the
+    next pass over an edge.
     """
     toolpath = program.toolpath
     is_arc = toolpath.is_arc
@@ -94,8 +97,24 @@ def uncut_jump_findings(program: Program, contour: Ints, passes: Passes) -> list
             way = float(toolpath.length_um[begin:arrival].sum())
             jump = program.reading.spelling.jump
             finding = at_block(toolpath, program.lines, "3B310", begin, length=way, jump=jump)
-            found.append(finding.with_fact(WrongBlock()))
+            into = _goes_into(toolpath, np.arange(first[here], begin), np.arange(begin, min(arrival, begin + _LEAD)))
+            found.append(finding.with_fact(WrongBlock())._replace(graver=Severity.ERROR if into else None))
     return found
+
+
+_LEAD = 8  # blocks of a lead-out, at most
+_INTO_UM = 200.0
+"""A way ends so far within a figure on purpose: overlaps of a pass are shorter, and not across it."""
+
+
+def _goes_into(toolpath: Toolpath, figure: Ints, way: Ints) -> bool:
+    """Whether one of the lines of a way ends within a closed figure; both are rows."""
+    place = toolpath.end_um[way]
+    for x, y in place[is_inside(toolpath.picked(figure), place)].tolist():
+        off, _ = distance_to_curves(toolpath, figure, np.full(len(figure), x), np.full(len(figure), y))
+        if float(off.min()) > _INTO_UM:
+            return True
+    return False
 
 
 def _enclose(toolpath: Toolpath, first: Ints, last: Ints) -> Bools:

@@ -2,6 +2,7 @@
 
 import pytest
 
+from parser.findings.codes import Severity
 from sim.check.file_check import Job, check_file
 from sim.check.settings import CheckSettings
 
@@ -27,3 +28,22 @@ def test_the_whole_way_is_told_at_its_first_line() -> None:
 def test_a_pause_and_a_jump_or_an_arc_between_them_is_none() -> None:
     assert told(f"{SQUARE} D B30000B0B30000GXL3 D {SQUARE}") == []
     assert told(f"{SQUARE} B0B9000B9000GYNR4 B30000B0B30000GXL3 {SQUARE}") == []
+
+
+HOLE = "B4900B0B4900GXL1 B4900B0B19600GYNR1"
+
+
+@pytest.mark.parametrize(
+    ("text", "severities"),
+    [
+        (f"{HOLE} B4900B0B4900GXL3 B20000B0B20000GXL1 {HOLE} B4900B0B4900GXL3", [Severity.ERROR]),  # back to its hole
+        (f"{HOLE} B4600B0B4600GXL3 B20000B0B20000GXL1 {HOLE} B4900B0B4900GXL3", [Severity.ERROR]),
+        (f"{HOLE} B190B0B190GXL3 B20000B0B20000GXL1 {HOLE} B4900B0B4900GXL3", [Severity.WARNING]),  # an overlap
+        (f"{HOLE} B20000B0B20000GXL1 B4900B0B19600GYNR3 B200B0B200GXL1", [Severity.WARNING]),  # a slit
+        (f"{SQUARE} B30000B0B30000GXL3 {SQUARE}", [Severity.WARNING]),  # outlines
+        (f"{HOLE} B4900B0B4900GXL3 D B20000B0B20000GXL1 D {HOLE} B4900B0B4900GXL3", []),
+    ],
+)
+def test_a_way_by_the_inside_of_the_figure_is_an_error(text: str, severities: list[Severity]) -> None:
+    found = check_file(Job("part.3b", f"{text} DD".encode(), CheckSettings())).findings
+    assert [each.severity for each in found if each.code == "3B310"] == severities
