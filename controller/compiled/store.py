@@ -17,6 +17,10 @@ import platformdirs
 from controller.compiled.machine_code import MachineCode, Shape, machine
 
 _SEAL: Final = hashlib.sha256().digest_size
+_LETTERS: Final = 16
+"""Of the digest in the name of an entry."""
+_LATEST: Final = 4
+"""Entries of a loop that stay: of as many releases, or machines that share a home."""
 
 
 def folder() -> Path:
@@ -47,6 +51,14 @@ def store(name: str, digest: str, code: MachineCode) -> None:
         path = _path(name, digest)
         path.parent.mkdir(parents=True, exist_ok=True)
         _write(path, hashlib.sha256(rest).digest() + rest)
+        _clear(path.parent, name)
+
+
+def _clear(entries_in: Path, name: str) -> None:
+    """Remove the entries of a loop but for the latest: each change of its sources adds one."""
+    entries = sorted(entries_in.glob(f"{name}-{'?' * _LETTERS}.loop"), key=lambda entry: entry.stat().st_mtime)
+    for entry in entries[:-_LATEST]:
+        entry.unlink(missing_ok=True)
 
 
 def _write(path: Path, entry: bytes) -> None:
@@ -63,7 +75,7 @@ def _write(path: Path, entry: bytes) -> None:
 
 
 def _path(name: str, digest: str) -> Path:
-    own = hashlib.sha256(f"{digest} {machine()}".encode()).hexdigest()[:16]
+    own = hashlib.sha256(f"{digest} {machine()}".encode()).hexdigest()[:_LETTERS]
     return folder() / f"{name}-{own}.loop"
 
 

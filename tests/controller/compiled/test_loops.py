@@ -143,6 +143,18 @@ def test_where_nothing_can_be_stored_a_loop_is_compiled_each_time(loops: Path) -
         assert printed(loops, loops / cache) == ["compiling", "10.0"]
 
 
+def test_of_each_loop_the_latest_entries_stay(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
+    code = MachineCode("a", (), Shape("none"), b"code")
+    store("a.loop_too", "0", code)
+    for number in range(7):
+        store("a.loop", str(number), code)
+        for entry in tmp_path.glob("a.loop-*"):  # as if each were some time older
+            os.utime(entry, (0.0, entry.stat().st_mtime - 60.0))
+    assert [stored("a.loop", str(number)) == code for number in range(7)] == [False] * 3 + [True] * 4
+    assert stored("a.loop_too", "0") == code
+
+
 def test_a_draft_that_cannot_be_finished_leaves_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def full(_path: Path, _target: Path) -> None:
         raise OSError(errno.ENOSPC, "no space left")
