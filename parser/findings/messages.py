@@ -5,7 +5,7 @@ message is all else that a user may be told is wrong.
 """
 
 import errno
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from types import MappingProxyType
 from typing import Final
 
@@ -67,6 +67,17 @@ class Message(str):
                 for name, value in self.values.items()
             },
         )
+
+
+def did_you_mean(name: str, known: Iterable[str], otherwise: Message, most: int = 1) -> Message:
+    """The hint behind a name that is none: known ones that begin with it, or are like it; or what else helps."""
+    import difflib  # noqa: PLC0415 - few names are misspelt
+
+    by_capitals = {each.upper(): each for each in known}
+    beginning = sorted(each for each in by_capitals if name and each.startswith(name.upper()))
+    near = beginning[:most] or sorted(difflib.get_close_matches(name.upper(), by_capitals, n=most))
+    names = ", ".join(by_capitals[each] for each in near)
+    return Message("did-you-mean", name=names) if near else otherwise
 
 
 def in_both(text: str) -> Bilingual:

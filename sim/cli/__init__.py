@@ -109,6 +109,9 @@ def _run() -> int:
         return 130
     except SystemExit as ended:  # by a signal
         return int(ended.code or 0)
+    except click.exceptions.NoArgsIsHelpError as error:  # a group without a command
+        write(f"{error.ctx.get_help() if error.ctx else error.message}\n", err=True)
+        return 2
     except (click.ClickException, DrycutError, OSError) as error:
         return _complain(_message(error))
     except Exception:

@@ -2,14 +2,18 @@
 
 import re
 from collections.abc import Iterator
+from typing import Final
 
 import click
 
 from parser.findings.catalogue import Language
 from parser.findings.codes import CODES
-from parser.findings.messages import Message
+from parser.findings.messages import Message, did_you_mean
 from sim.cli.spoken import Spoken, spoken
 from sim.cli.spoken.completing import offer_pages
+
+_MOST_NEAR: Final = 3
+"""Codes and documents that are named where one is misspelt."""
 
 
 @click.command(cls=Spoken)
@@ -42,7 +46,8 @@ def _markdown(name: str | None, sections: tuple[str, ...], language: Language) -
     if code in CODES and not sections:
         return cited(page_text(code, language))
     if code not in of_documents:
-        raise click.UsageError(Message("nothing-to-explain", name=name))
+        hint = did_you_mean(name, [*CODES, *documents()], Message("explain-lists-them"), most=_MOST_NEAR)
+        raise click.UsageError(Message("nothing-to-explain", name=name, hint=hint))
     text = document(of_documents[code], language)
     try:
         return cited("\n\n".join(section(text, number) for number in _numbers(sections)) if sections else text)

@@ -14,11 +14,12 @@ import copy
 import inspect
 from collections.abc import Iterable, Iterator, Sequence
 from functools import cache
+from pathlib import Path
 from typing import Final
 
 import click
 
-from parser.findings.messages import Message
+from parser.findings.messages import Message, did_you_mean
 from parser.text.excerpt import cells
 from sim.cli.spoken.tongue import OPTION, speak_as_asked, words
 from sim.show.terminal.wrap import wrapped
@@ -127,6 +128,17 @@ class SpokenGroup(Spoken, click.Group):
     """A group of such commands; of those in it, it tells what their texts say, and imports none for that."""
 
     command_class = Spoken
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """The command that is named. UsageError, with those of names like it, where there is none."""
+        if args[0] not in self.list_commands(ctx) and args[0][:1] != "-":
+            hint = did_you_mean(args[0], self.list_commands(ctx), Message("help-lists-commands"))
+            if Path(args[0]).exists():
+                hint = Message("did-you-mean", name=f"check {args[0]}")
+            raise click.UsageError(Message("no-such-command", name=args[0], hint=hint))
+        return super().resolve_command(ctx, args)
 
     def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Its options, and the commands in it."""

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 from parser.files.reading import read_text
 from parser.findings.errors import SettingsError
-from parser.findings.messages import Message
+from parser.findings.messages import Message, did_you_mean
 from sim.base.units import in_digits
 
 
@@ -68,10 +68,7 @@ def refuse_unknown(table: Mapping[str, Any], known: Iterable[str], where: str) -
     names = sorted(known)
     for key in table:
         if key not in names:
-            import difflib  # noqa: PLC0415 - few keys are misspelt
-
-            near = difflib.get_close_matches(key, names, n=1)
-            hint = Message("did-you-mean", name=near[0]) if near else Message("known-keys", names=", ".join(names))
+            hint = did_you_mean(key, names, Message("known-keys", names=", ".join(names)))
             raise SettingsError("unknown-key", where=where, key=key, hint=hint)
 
 
