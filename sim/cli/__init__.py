@@ -25,6 +25,7 @@ _COMMANDS = {
     "decode": "sim.cli.decode",
     "drill": "sim.cli.drill",
     "draw": "sim.cli.draw",
+    "example": "sim.cli.example",
     "explain": "sim.cli.explain",
     "lsp": "sim.cli.lsp",
     "open": "sim.cli.open",

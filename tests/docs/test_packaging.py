@@ -53,6 +53,8 @@ def test_wheel_holds_packages_data_and_licences(tmp_path: Path) -> None:
     assert any(path.startswith("sim/show/draw/fonts/") and path.endswith(".otf") for path in names)
     assert any(path.endswith("licenses/LICENSE") for path in names)
     assert {path for path in names if path.startswith("sim/docs/")} == {f"sim/docs/{name}" for name in files()}
+    examples = {file.relative_to(ROOT).as_posix() for file in (ROOT / "scenarios").rglob("*") if file.is_file()}
+    assert {path.removeprefix("sim/") for path in names if path.startswith("sim/scenarios/")} == examples
 
 
 def test_source_package_holds_what_tests_and_documents_need(tmp_path: Path) -> None:

@@ -17,6 +17,13 @@ def offer_machines(ctx: click.Context, param: click.Parameter, incomplete: str) 
     return [*known, *offer_files(ctx, param, incomplete)]
 
 
+def offer_examples(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
+    """The examples that come with drycut."""
+    from sim.jobs.examples import example_names
+
+    return [CompletionItem(name) for name in example_names() if name.startswith(incomplete)]
+
+
 def offer_pages(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
     """The codes of findings, with their titles, and the documents."""
     from sim.cli.spoken import spoken
