@@ -17,6 +17,8 @@ from controller.stepping.words import words_of
 from parser.findings.errors import ControllerError
 
 AXES = (1, 2)  # X and Y
+_AT_ONCE = 1 << 17
+"""Pulses that are taken from the card at a time, at most: each time takes a twentieth of a millisecond."""
 
 
 class Host:
@@ -53,6 +55,8 @@ class Host:
         shapes = shapes_told(self._entries) if words is None else blocks_told(drive, self._entries, words)
         self._told: list[tuple[float, ...]] = shapes
         self._end_s = drive.plan.time_at(np.cumsum(drive.limits.length_um)[self._entries.row])
+        fastest = math.sqrt(2.0) * float(drive.plan.speed_um_s.max(initial=1.0))  # pulses/s of both axes
+        self._slice_s = _AT_ONCE / fastest
         self._pushed = 0
         self._began_s: float | None = None
 
@@ -138,7 +142,7 @@ class Host:
 
     def _sleep(self, ms: float) -> Iterator[Pulses]:
         """Sleep, and hand on the pulses that go out."""
-        for _ in self.card.sleeping(ms, slice_of(ms / 1e3)):
+        for _ in self.card.sleeping(ms, max(slice_of(ms / 1e3), self._slice_s)):
             yield from map(self._placed, self._due)
             self._due.clear()
 
