@@ -1,5 +1,7 @@
 """The table follows the pulses as they stream in; what it keeps does not grow with the ticks."""
 
+from concurrent.futures import ThreadPoolExecutor
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -20,6 +22,8 @@ from sim.table.solve.tick import followed
 from sim.table.trace import Trace
 from sim.table.when.ticks import Ticks
 
+_BESIDE = 1 << 13
+"""Pulses from which a second core is worth its while: to hand them over takes as long as some hundred."""
 _GRACE_S = 1e-9
 """A pulse due at a time counts as out at that time, whichever way its time was rounded."""
 
@@ -109,7 +113,7 @@ class Following:
             run.take(pulses.t_s[steps], column[steps + 1])
         self._last_um, self._known_s = places[-1:], float(pulses.t_s[-1])
         self._sample(pulses.t_s, places)
-        self._follow(self._known_s - max(run.ahead_s for run in self._runs))
+        self._follow(self._known_s - max(run.ahead_s for run in self._runs), len(pulses.t_s))
 
     def finish(self) -> tuple[Trace, tuple[Loss, ...], tuple[Peak, ...], History]:
         """Let the table come to rest, and sum up."""
@@ -126,22 +130,33 @@ class Following:
         history = history_of((x, y), drives, min(end_s, self.tripped_s))
         return trace, in_order(losses), peaks_of((x, y), drives, trace, ticks), history
 
-    def _follow(self, until_s: float) -> None:
-        """Follow up to a time. Where a servo trips, both axes go there again, and brake from then on."""
+    def _follow(self, until_s: float, pulses: int = 0) -> None:
+        """Follow up to a time, so many pulses. Where a servo trips, both axes go there again, braking from then on."""
         before = [run.copy() for run in self._runs] if self._trip is None and self._setup.model.motor.may_trip else []
         self._followed_s = max(until_s, self._followed_s)
-        self._let(until_s)
+        self._let(until_s, pulses)
         first = min(Axis, key=lambda axis: self._runs[axis].state.tripped_s)
         tripped = self._runs[first].state
         if before and tripped.tripped_s < np.inf:
             self._trip = first, Slip(tripped.tripped_s, tripped.slide.lag_um, tripped.slide.at_um)
             self._runs = before
-            self._let(until_s)
+            self._let(until_s, pulses)
 
-    def _let(self, until_s: float) -> None:
-        """Let the axes follow up to a time."""
-        for run, slips in zip(self._runs, self._slips, strict=True):
-            slips.take(run.follow(until_s, self.tripped_s))
+    def _let(self, until_s: float, pulses: int) -> None:
+        """Let the axes follow up to a time: where that are many pulses, one axis beside the other on a second core."""
+        x, y = zip(self._runs, self._slips, strict=True)
+        if pulses < _BESIDE or self._setup.engine != "compiled":  # bodies are moved by one thread alone
+            for run, slips in (x, y):
+                slips.take(run.follow(until_s, self.tripped_s))
+            return
+        first = self._second.submit(lambda: x[1].take(x[0].follow(until_s, self.tripped_s)))
+        y[1].take(y[0].follow(until_s, self.tripped_s))
+        first.result()
+
+    @cached_property
+    def _second(self) -> ThreadPoolExecutor:
+        """A thread beside this one: loops hold no lock of Python."""
+        return ThreadPoolExecutor(1)
 
     def _sample(self, t_s: Floats, places_um: Ints) -> None:
         """Note what is commanded at the samples before the last of some pulses, whose places are (n + 1, 2)."""

@@ -5,10 +5,13 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from places import SCENARIOS
+from runs import run_folder
 from table_runs import MODEL, MOVED_KG, STEPPER, TICK_S, draw, even_ticks, pulses_of, still
 
 from controller.stepping.pulses import Pulses
 from parser.geometry.curves import Floats
+from sim.table import follow
 from sim.table.physics.drive import Kick, drives_of, kicked
 from sim.table.physics.rating import motors_um as turned_um
 
@@ -161,3 +164,12 @@ def test_at_each_reversal_the_table_stands_for_the_backlash_and_twice_the_hold_o
         way = abs(turned[off] - turned[turn]) + damper_s * abs(turned[off + 1] - turned[off]) / TICK_S
         assert off - turn > 50
         assert way == pytest.approx(BACKLASH_UM[axis] + 2.0 * FRICTION_N[axis] / STIFFNESS, abs=0.1)  # µm, of 6 and 4
+
+
+@pytest.mark.parametrize("name", ["backlash", "servo-trip", "lost-steps"])
+def test_axes_side_by_side_move_as_one_after_the_other(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    one_by_one = run_folder(SCENARIOS / name)
+    monkeypatch.setattr(follow, "_BESIDE", 0)
+    side_by_side = run_folder(SCENARIOS / name)
+    assert np.array_equal(side_by_side.trace.table_um, one_by_one.trace.table_um)
+    assert (side_by_side.losses, side_by_side.peaks) == (one_by_one.losses, one_by_one.peaks)
