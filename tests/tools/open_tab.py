@@ -55,7 +55,9 @@ def tab(browsers: Browsers, address: str, width: int = 1280, lang: str = "en") -
         lent.context.set_default_timeout(WAIT_MS)
         shown = Tab(lent.page)
         shown.page.on("request", lambda sent: shown.asked.append(sent.url))
-        shown.page.goto(address)
+        with shown.page.expect_response("**/first"):  # what is open at the start has come, and would replace other text
+            shown.page.goto(address)
+        shown.page.wait_for_function("() => document.querySelector('#name').textContent !== ''")
         yield shown
         assert shown.found == []
         assert [url for url in shown.asked if not url.startswith((address, "blob:", "data:"))] == []

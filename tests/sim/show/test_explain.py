@@ -94,10 +94,10 @@ def test_a_document_is_shown_in_chinese_where_there_is_one() -> None:
         assert (title(name, "zh") != title(name)) == (name in written)
 
 
-def test_a_wheel_brings_the_documents_of_users() -> None:
+def test_a_wheel_brings_the_documents_of_users_and_the_examples() -> None:
     build = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["hatch"]["build"]
     shipped = build["targets"]["wheel"]["force-include"]
-    assert shipped == {f"docs/{name}": f"sim/docs/{name}" for name in files()}
+    assert shipped == {f"docs/{name}": f"sim/docs/{name}" for name in files()} | {"scenarios": "sim/scenarios"}
     assert {"3b", "check", "scenarios"} < set(documents())
     assert not {"architecture", "code-flow", "findings"} & set(documents())
 
