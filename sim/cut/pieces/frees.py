@@ -12,6 +12,7 @@ import shapely
 from numpy.typing import NDArray
 
 from parser.geometry.curves import Floats, Ints
+from sim.cut.kerf.last_beside import last_beside
 from sim.cut.kerf.swept import Box, Swept
 from sim.cut.regions import Region, difference, union_all
 
@@ -176,10 +177,9 @@ def _lengths_um(rest: Rest, at: Ints) -> Floats:
 
 def _again(place_um: Floats, along_um: Floats, offset_um: float) -> NDArray[np.bool_]:
     """Whether the way was at each of the places (m, 2) before: more than an offset earlier by its length (m,)."""
-    again = np.zeros(len(place_um), dtype=np.bool_)
     if not len(along_um) or along_um[-1] - along_um[0] <= offset_um:
-        return again
-    points = np.asarray(shapely.points(place_um))
-    this, other = shapely.STRtree(points).query(points, predicate="dwithin", distance=_SPARED * offset_um)
-    again[this[along_um[this] - along_um[other] > offset_um]] = True
+        return np.zeros(len(place_um), dtype=np.bool_)
+    reach = _SPARED * offset_um
+    earliest = len(place_um) - 1 - last_beside(place_um[::-1], place_um, reach, reach)  # seen backwards it is the last
+    again: NDArray[np.bool_] = along_um - along_um[earliest] > offset_um
     return again
