@@ -13,13 +13,15 @@ import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import cache
+from operator import index
 from typing import Any, Final, NamedTuple, get_args, get_type_hints
 
+import llvmlite
 import llvmlite.binding as llvm
 import numpy as np
 
 _NUMBERS: Final = {"float64": ctypes.c_double, "int64": ctypes.c_int64, "bool": ctypes.c_bool}
-_READ: Final[dict[str, Callable[[Any], Any]]] = {"float64": float, "int64": int, "bool": bool}
+_READ: Final[dict[str, Callable[[Any], Any]]] = {"float64": float, "int64": index, "bool": bool}
 _DONE: Final = frozenset({0, -2})  # `RETCODE_OK`, and `RETCODE_NONE` of a loop that gives nothing
 
 
@@ -74,9 +76,9 @@ def target_machine() -> llvm.TargetMachine:
 
 @cache
 def machine() -> str:
-    """What code on disk depends on: the processor, and the release of LLVM that comes with each of numba."""
+    """What code on disk depends on: the processor, and the release of llvmlite, of which each of numba has its own."""
     features = llvm.get_host_cpu_features().flatten()
-    return f"{llvm.get_default_triple()} {llvm.get_host_cpu_name()} {features} {llvm.llvm_version_info}"
+    return f"{llvm.get_default_triple()} {llvm.get_host_cpu_name()} {features} {llvmlite.__version__}"
 
 
 def function_of(code: MachineCode, result: Any) -> Callable[..., Any]:

@@ -22,7 +22,7 @@ from sim.table.solve.tick import followed
 from sim.table.trace import Trace
 from sim.table.when.ticks import Ticks
 
-_BESIDE = 1 << 13
+_SIDE_BY_SIDE = 1 << 13
 """Pulses from which a second core is worth its while: to hand them over takes as long as some hundred."""
 _GRACE_S = 1e-9
 """A pulse due at a time counts as out at that time, whichever way its time was rounded."""
@@ -144,17 +144,20 @@ class Following:
 
     def _let(self, until_s: float, pulses: int) -> None:
         """Let the axes follow up to a time: where that are many pulses, one axis beside the other on a second core."""
-        x, y = zip(self._runs, self._slips, strict=True)
-        if pulses < _BESIDE or self._setup.engine != "compiled":  # bodies are moved by one thread alone
-            for run, slips in (x, y):
-                slips.take(run.follow(until_s, self.tripped_s))
+        if pulses < _SIDE_BY_SIDE or self._setup.engine != "compiled":  # bodies are moved by one thread alone
+            for axis in Axis:
+                self._let_axis(axis, until_s)
             return
-        first = self._second.submit(lambda: x[1].take(x[0].follow(until_s, self.tripped_s)))
-        y[1].take(y[0].follow(until_s, self.tripped_s))
-        first.result()
+        of_x = self._second_core.submit(self._let_axis, Axis.X, until_s)
+        self._let_axis(Axis.Y, until_s)
+        of_x.result()
+
+    def _let_axis(self, axis: Axis, until_s: float) -> None:
+        """Let one axis follow up to a time, and note its slips."""
+        self._slips[axis].take(self._runs[axis].follow(until_s, self.tripped_s))
 
     @cached_property
-    def _second(self) -> ThreadPoolExecutor:
+    def _second_core(self) -> ThreadPoolExecutor:
         """A thread beside this one: loops hold no lock of Python."""
         return ThreadPoolExecutor(1)
 

@@ -11,7 +11,19 @@ from typing import Final
 from parser import __version__
 from parser.findings.errors import ClusterError
 
-_PACKAGES: Final = ("numpy", "numba", "shapely", "pymunk", "ezdxf", "pygame-ce", "pillow", "jinja2", "click", "rich")
+_PACKAGES: Final = (
+    "numpy",
+    "numba",
+    "llvmlite",
+    "shapely",
+    "pymunk",
+    "ezdxf",
+    "pygame-ce",
+    "pillow",
+    "jinja2",
+    "click",
+    "rich",
+)
 _OURS: Final = ("parser", "controller", "sim", "drycut")
 _COMPILED: Final = (".pyc", ".pyo")
 

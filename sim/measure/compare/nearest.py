@@ -110,6 +110,22 @@ def from_box_squared(box: Floats, x: float, y: float) -> float:
     return float(off_x * off_x + off_y * off_y)
 
 
+@compiled("Tuple((f8, i8, i8))(i8[::1], f8[:,::1], UniTuple(f8, 2), f8, i8)")
+def _nearer_of(
+    rows: Ints, shape: Floats, place_um: tuple[float, float], best: float, best_row: int
+) -> tuple[float, int, int]:
+    """The nearest to a place of the best so far, µm, and some rows; its row, and how many were looked at."""
+    (x, y), looked_at = place_um, 0
+    for of in rows:
+        if of == best_row:
+            continue
+        looked_at += 1
+        off = distance_from(shape[of], x, y, best * (1.0 + _SLACK) + _SLACK_UM)
+        if off < best or (off == best and of < best_row):
+            best, best_row = off, of
+    return best, best_row, looked_at
+
+
 @compiled(
     "i8(f8[:,::1], Tuple((f8[:,::1], i8[::1])), f8[:,::1], i8, Tuple((i8[::1], f8[::1])), Tuple((i8[::1], f8[::1])))"
 )
@@ -124,8 +140,8 @@ def _search(  # noqa: PLR0913, PLR0917 - a compiled loop takes arrays one by one
     """Find the nearest of curves to places (m, 2): fill in its row (m,) and distance (m,), of equally near the first.
 
     The tree is that of the curves, as a bare tuple, `shape` their rows of numbers; `room` is for the nodes that wait
-    (`_MOST_WAITING`,) and the squares of their distances. Gives how many curves were looked
-    at, or `TOO_MANY` beyond `most`.
+    (`_MOST_WAITING`,) and the squares of their distances. Gives how many curves were looked at, or `TOO_MANY` beyond
+    `most`.
 
     A place begins with the curve that was nearest to the one before it; then nodes are opened, the nearer one of two
     first, whose boxes are not farther off than the nearest curve so far.
@@ -153,15 +169,9 @@ def _search(  # noqa: PLR0913, PLR0917 - a compiled loop takes arrays one by one
                 number += 2
                 continue
             first = (node - leaves) * PIECES_OF_LEAF
-            for piece in range(first, min(first + PIECES_OF_LEAF, len(piece_row))):
-                of = piece_row[piece]
-                if of == best_row:
-                    continue
-                looked_at += 1
-                off = distance_from(shape[of], x, y, within)
-                if off < best or (off == best and of < best_row):
-                    best, best_row = off, of
-                    within = best * (1.0 + _SLACK) + _SLACK_UM
+            rows = piece_row[first : first + PIECES_OF_LEAF]
+            best, best_row, looks = _nearer_of(rows, shape, (x, y), best, best_row)
+            within, looked_at = best * (1.0 + _SLACK) + _SLACK_UM, looked_at + looks
         if looked_at > most:
             return TOO_MANY
         row[at], distance_um[at] = best_row, best

@@ -197,6 +197,11 @@ def test_arguments_of_another_signature_are_refused(row: object) -> None:
         away_from(row, 1.0, 2.0)  # type: ignore[arg-type]  # that is what is tried
 
 
+def test_a_number_with_a_part_is_no_whole_one() -> None:
+    with pytest.raises(TypeError):
+        turned_over(Outer(Inner(True, 0.5), 1.5, False), np.zeros((2, 1)), True)  # type: ignore[arg-type]  # tried
+
+
 def test_more_or_fewer_arguments_are_refused() -> None:
     for extra in ((), (1.0,), (1.0, 2.0, 3.0)):
         with pytest.raises(TypeError):

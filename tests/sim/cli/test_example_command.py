@@ -12,12 +12,8 @@ def test_all_scenarios_are_listed_with_their_titles() -> None:
     lines = run_inside("example").stdout.decode().splitlines()
     assert [line.split()[0] for line in lines if not line.startswith(" ")] == list(example_names())
     assert set(example_names()) == {folder.parent.name for folder in SCENARIOS.glob("*/scenario.toml")}
-    assert "keyhole            Keyhole: half circle R 24.9 and major arc R 49.9" in [*lines, *map(_squeezed, lines)]
-
-
-def _squeezed(line: str) -> str:
-    name, _, title = line.partition(" ")
-    return f"{name:<19}{title.lstrip()}"
+    (keyhole,) = (line.split() for line in lines if line.startswith("keyhole"))
+    assert keyhole == ["keyhole", "Keyhole:", "half", "circle", "R", "24.9", "and", "major", "arc", "R", "49.9"]
 
 
 def test_an_example_is_written_as_it_comes_and_runs(tmp_path: Path) -> None:

@@ -169,7 +169,7 @@ def test_at_each_reversal_the_table_stands_for_the_backlash_and_twice_the_hold_o
 @pytest.mark.parametrize("name", ["backlash", "servo-trip", "lost-steps"])
 def test_axes_side_by_side_move_as_one_after_the_other(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     one_by_one = run_folder(SCENARIOS / name)
-    monkeypatch.setattr(follow, "_BESIDE", 0)
+    monkeypatch.setattr(follow, "_SIDE_BY_SIDE", 0)
     side_by_side = run_folder(SCENARIOS / name)
     assert np.array_equal(side_by_side.trace.table_um, one_by_one.trace.table_um)
     assert (side_by_side.losses, side_by_side.peaks) == (one_by_one.losses, one_by_one.peaks)
