@@ -102,6 +102,13 @@ def joined(parts: Sequence[Curves]) -> Curves:
     return Curves(*(np.concatenate([getattr(part, field.name) for part in parts]) for field in fields(Curves)))
 
 
+def jump_between(start_um: Floats, end_um: Floats) -> Curves:
+    """One row: the jump from a place (2,) to another."""
+    jump = curves_between(start_um[None], end_um[None], np.full((1, 2), np.nan), np.zeros(1))
+    jump.kind[:] = CurveKind.JUMP
+    return jump
+
+
 def extents(curves: Curves) -> tuple[Floats, Floats]:
     """Lowest and highest places (n, 2) µm of each curve."""
     low = np.minimum(curves.start_um, curves.end_um)

@@ -6,17 +6,16 @@ large.
 
 import json
 from collections.abc import Iterator, Mapping
+from itertools import pairwise
 from pathlib import Path
 from typing import Any, Final
-
-import numpy as np
 
 from parser.drawing.model import Drawing, running
 from parser.drawing.read import read_drawing
 from parser.findings.catalogue import LANGUAGES, Bilingual, Language, remark_text
 from parser.findings.errors import DrycutError, SettingsError
 from parser.findings.messages import Message
-from parser.geometry.curves import CurveKind, Curves
+from parser.geometry.curves import Curves, joined, jump_between
 from parser.program import load_program, moving
 from parser.text.encoding import printable
 from parser.toolpath import Toolpath
@@ -111,37 +110,15 @@ def _path(request: PageRequest, scenario: Scenario) -> Toolpath:
 def _columns(drawing: Drawing, placement: Placement) -> dict[str, list[Any]]:
     """Columns that a page draws the drawing by: its loops one behind the other, with jumps between them."""
     loops = [running(drawing.curves, loop.row, loop.backwards) for loop in drawing.loops]
-    return exact_columns(_chained([placed(loop, placement) for loop in loops]))
-
-
-def _chained(loops: list[Curves]) -> Curves:
-    """Loops as one path, each curve from where the one before it ends: jumps lead from loop to loop."""
-    parts = list(_with_jumps(loops))
-    return Curves(*(np.concatenate([getattr(part, name) for part in parts]) for name in Curves.__dataclass_fields__))
+    return exact_columns(joined(list(_with_jumps([placed(loop, placement) for loop in loops]))))
 
 
 def _with_jumps(loops: list[Curves]) -> Iterator[Curves]:
-    before = None
-    for loop in loops:
-        if before is not None:
-            yield _jump(before, loop)
-        yield loop
-        before = loop
-
-
-def _jump(before: Curves, behind: Curves) -> Curves:
-    """From the end of one loop to the start of another."""
-    start, end, nothing = before.end_um[-1:], behind.start_um[:1], np.full(1, np.nan)
-    return Curves(
-        kind=np.array([CurveKind.JUMP]),
-        start_um=start,
-        end_um=end,
-        center_um=np.full((1, 2), np.nan),
-        radius_um=nothing,
-        start_angle_rad=nothing,
-        sweep_rad=np.zeros(1),
-        length_um=np.hypot(*(end - start).T),
-    )
+    """Each loop, and before it the jump from the end of the last."""
+    yield from loops[:1]
+    for before, behind in pairwise(loops):
+        yield jump_between(before.end_um[-1], behind.start_um[0])
+        yield behind
 
 
 def _both(texts: list[Bilingual]) -> list[dict[str, str]]:

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from parser.controller_words.compensation import Compensation, CompensationRules
-from parser.geometry.curves import CurveKind, Curves, curves_between, joined
+from parser.geometry.curves import Curves, joined, jump_between
 from parser.geometry.directions import directions
 from parser.toolpath import Point, Stop
 from parser.write.draft import Draft
@@ -29,7 +29,7 @@ def draft_of_cuts(cuts: Sequence[FigureCut]) -> Draft:
     rows = 0
     for at, cut in enumerate(cuts):
         if at:
-            jump = _jump(cuts[at - 1], cut)
+            jump = jump_between(*(np.array(each.thread.place_um) for each in (cuts[at - 1], cut)))
             stops.append(Stop("pause", rows, 0))
             parts.append(jump)
             rows += len(jump)
@@ -41,13 +41,6 @@ def draft_of_cuts(cuts: Sequence[FigureCut]) -> Draft:
     stops.append(Stop("end", rows, 0))
     nowhere = np.full((rows, 2), np.nan)
     return Draft(joined(parts), tuple(stops), np.zeros(rows, dtype=np.bool_), nowhere, is_meant=True)
-
-
-def _jump(before: FigureCut, behind: FigureCut) -> Curves:
-    start, end = (np.array([each.thread.place_um]) for each in (before, behind))
-    line = curves_between(start, end, np.full((1, 2), np.nan), np.zeros(1))
-    line.kind[:] = CurveKind.JUMP
-    return line
 
 
 _TANGENT_RAD = np.radians(0.5)
