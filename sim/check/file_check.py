@@ -47,7 +47,7 @@ class Job(NamedTuple):
     settings
         What it is checked with.
     known
-        Fingerprints of the findings that its baseline has: they are not shown.
+        Fingerprints of what its baseline has: findings that are not shown, and checks that need not end.
     """
 
     name: str

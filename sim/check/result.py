@@ -16,7 +16,9 @@ from parser.text.encoding import narrow
 from sim.check.programmed import Programmed
 
 Verdict = Literal["pass", "fail", "incomplete"]
-State = Literal["complete", "incomplete", "not asked"]
+FailOn = Literal["error", "incomplete", "warning"]
+"""The mildest that fails a file: errors; also checks that did not come to their end; also warnings."""
+State = Literal["complete", "incomplete", "known", "not asked"]
 
 
 class CheckState(NamedTuple):
@@ -27,7 +29,8 @@ class CheckState(NamedTuple):
     name
         Name of the check, a term of the catalogue: ``check-crossings``.
     state
-        ``not asked`` where a setting that it needs was not given; ``incomplete`` where it could not look at everything.
+        ``not asked`` where a setting that it needs was not given; ``incomplete`` where it could not look at everything;
+        ``known`` where it could not, and the baseline has that.
     reason
         Term of the catalogue that says why it is not complete; empty where it is.
     words
@@ -67,11 +70,16 @@ class Coverage(NamedTuple):
     @property
     def is_complete(self) -> bool:
         """Whether every check that was asked for came to its end."""
+        return all(check.state in ("complete", "not asked") for check in self.checks)
+
+    @property
+    def is_as_known(self) -> bool:
+        """Whether every check that was asked for came to its end, but for those that the baseline has."""
         return all(check.state != "incomplete" for check in self.checks)
 
 
 class Silenced(NamedTuple):
-    """How many findings of a file are not shown, by what silences them.
+    """How many findings of a file are not shown, by what silences them; and the checks that count as known.
 
     Attributes
     ----------
@@ -81,12 +89,20 @@ class Silenced(NamedTuple):
         Those that a remark in the program silences.
     baseline
         Those that the baseline has.
+    checks
+        Checks that did not come to their end, as the baseline has it.
     """
 
     options: int = 0
     settings: int = 0
     remarks: int = 0
     baseline: int = 0
+    checks: int = 0
+
+    @property
+    def findings(self) -> int:
+        """How many findings are not shown."""
+        return self.options + self.settings + self.remarks + self.baseline
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,7 +129,7 @@ class CheckResult:
     length_um, steps
         Length of the exact path, jumps included, and its steps of 1 µm.
     fail_on
-        Mildest severity that fails the file.
+        The mildest that fails the file.
     unreadable
         Whether there was no program to check.
     settings_file
@@ -134,7 +150,7 @@ class CheckResult:
     coverage: Coverage
     length_um: float
     steps: int
-    fail_on: Severity = Severity.ERROR
+    fail_on: FailOn = "incomplete"
     unreadable: bool = False
     settings_file: str = ""
     silenced: Silenced = Silenced()  # noqa: RUF009 - frozen
@@ -149,20 +165,19 @@ class CheckResult:
 
     def fails(self, severity: Severity) -> bool:
         """Whether a finding of this severity fails the file."""
-        order = tuple(Severity)
-        return order.index(severity) <= order.index(self.fail_on)
+        return severity is Severity.ERROR or (severity is Severity.WARNING and self.fail_on == "warning")
 
     @property
     def failed(self) -> bool:
-        """Whether the file is not good enough: a finding fails it, or a check could not run to its end."""
-        return self.verdict != "pass"
+        """Whether the file is not good enough: a finding fails it, or that a check did not come to its end."""
+        return self.verdict == "fail" or (self.verdict == "incomplete" and self.fail_on != "error")
 
     @property
     def verdict(self) -> Verdict:
-        """``fail`` where a finding fails it; else ``incomplete`` where a check did not run to its end, or ``pass``."""
+        """``fail`` where a finding fails it; ``incomplete`` where a check did not end that is to, or else ``pass``."""
         if any(self.fails(finding.severity) for finding in self.findings):
             return "fail"
-        return "pass" if self.coverage.is_complete else "incomplete"
+        return "pass" if self.coverage.is_as_known else "incomplete"
 
 
 _NEAR = 40
@@ -181,11 +196,20 @@ def fingerprints(result: CheckResult) -> tuple[str, ...]:
 
 
 def _fingerprint(finding: Finding, meant: str, seen: Counter[str]) -> str:
-    import hashlib  # noqa: PLC0415 - a sound program needs none, and starts sooner
-
     key = f"{finding.code}\n{meant}"
     seen[key] += 1
-    return hashlib.sha256(f"{key}\n{seen[key]}".encode(errors="replace")).hexdigest()[:32]
+    return _digest(f"{key}\n{seen[key]}")
+
+
+def gap_marks(check: CheckState) -> tuple[str, ...]:
+    """Fingerprints of why a check did not come to its end: one for each word that its reason is about, or one."""
+    return tuple(_digest(f"{check.name}\n{check.reason}\n{word}") for word in check.words or ("",))
+
+
+def _digest(text: str) -> str:
+    import hashlib  # noqa: PLC0415 - a sound program needs none, and starts sooner
+
+    return hashlib.sha256(text.encode(errors="replace")).hexdigest()[:32]
 
 
 def _meant(result: CheckResult, finding: Finding) -> str:

@@ -125,6 +125,8 @@ def junit_failures(path: Path) -> list[Any]:
     ]
 
 
+OPEN = "B9900B0B9900GXL1\nB0B9900B9900GYL2\nB3000B2000B3000GXL3\nDD\n"
+TAPER = "G92 X0 Y0\nG90 G51 A1.5\nG01 X0 Y5000\nX5000 Y5000\nX5000 Y0\nX0 Y0\nG50 A0\nM02\n"
 FINDINGS: dict[str, Callable[[Path], Any]] = {
     "sarif": lambda path: fits_schema("sarif")(path)["runs"][0]["results"],
     "gitlab": fits_schema("gitlab"),
@@ -169,6 +171,31 @@ def test_what_is_known_passes_a_recipe_and_what_is_new_fails_it(shop: Shop) -> N
     shop.write("deep/零件.4b", WRONG_AXIS)
     assert shop.run(recipe.script).returncode == 1
     assert len(FINDINGS["gitlab"](shop.folder / recipe.files["gitlab"])) == 1
+
+
+def test_a_shop_of_200_adopts_and_then_fails_on_what_is_new_alone(shop: Shop) -> None:
+    kinds = [("3b", SOUND), ("3b", WRONG_AXIS), ("3b", OPEN), ("iso", TAPER), ("3b", SOUND.replace("GXL1", "GXL4"))]
+    for at in range(200):
+        suffix, text = kinds[at % len(kinds)]
+        (shop.folder / "programs" / str(at // 50)).mkdir(exist_ok=True)
+        shop.write(f"{at // 50}/p{at}.{suffix}", text)
+    ((hook,),) = [repository["hooks"] for repository in OWN_HOOK["repos"]]
+    names = sorted(str(path.relative_to(shop.folder)) for path in (shop.folder / "programs").rglob("*.*"))
+    ways = {
+        "github": RECIPES["github"].script,
+        "gitlab": RECIPES["gitlab"].script,
+        "pre-commit": " ".join([hook["entry"], *hook["args"], *names]),
+    }
+    assert shop.run(ways["gitlab"]).returncode == 1
+    assert shop.run(KNOWN).returncode == 0
+    for way, script in ways.items():
+        done = shop.run(script)
+        assert done.returncode == 0, (way, done.stdout)
+        assert "checks in the baseline" in done.stdout, way
+    shop.write("3/p150.3b", WRONG_AXIS)
+    for way, script in ways.items():
+        done = shop.run(script)
+        assert (done.returncode, done.stdout.count("3B204")) == (1, 1), way
 
 
 def test_make_leaves_the_mends_for_a_person(shop: Shop) -> None:

@@ -72,9 +72,9 @@ def test_the_door_asks_readers_in_turn() -> None:
 def test_files_of_every_reader_are_found(tmp_path: Path) -> None:
     for name in ("a.3b", "b.TINY", "c.txt"):
         (tmp_path / name).touch()
-    assert [Path(file).name for file in find_files([str(tmp_path)], lambda path: False)] == ["a.3b", "b.TINY"]
+    assert [Path(file).name for file in find_files([str(tmp_path)]).files] == ["a.3b", "b.TINY"]
     with pytest.raises(FileUnreadableError, match=r"end in \.3b or \.4b .* or \.tiny"):
-        find_files([str(tmp_path / "*.dxf")], lambda path: False)
+        find_files([str(tmp_path / "*.dxf")])
 
 
 def test_a_block_says_where_it_stands() -> None:

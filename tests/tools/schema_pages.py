@@ -13,10 +13,11 @@ from sim.run.ballbar.model import BALLBAR
 from sim.run.report.drawing_model import COMPARE
 from sim.run.report.model import REPORT
 from sim.setup.file_schemas import machine_schema, scenario_schema
+from sim.show.findings.explained import EXPLAIN
 from sim.show.findings.model import CHECK
 
 DOCS = Path(__file__).parents[2] / "docs"
-DOCUMENTS = (BALLBAR, CHECK, COMPARE, DECODE, INDEX, PROGRAM, REPORT)
+DOCUMENTS = (BALLBAR, CHECK, COMPARE, DECODE, EXPLAIN, INDEX, PROGRAM, REPORT)
 
 
 def pages() -> Iterator[tuple[Path, str]]:

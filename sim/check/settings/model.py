@@ -5,9 +5,9 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Final, Literal, Self
 
 from parser.dialect.choices import Choices, Marks, Registers, merged
-from parser.findings.codes import Severity
 from parser.units import from_mm
 from sim.check.path_checks import Demands
+from sim.check.result import FailOn
 from sim.setup.toml.keys import Key
 from sim.setup.wire import DEFAULT_WIRE, DIAMETER, SPARK_GAP
 
@@ -36,7 +36,7 @@ class CheckSettings:
     ignore_here
         Beginnings of the codes that a settings file does not show of this one file.
     fail_on
-        Least severity that makes the exit code 1.
+        The mildest that makes the exit code 1.
     marks
         Further end and pause marks.
     dialect, unit, registers
@@ -55,7 +55,7 @@ class CheckSettings:
     select: tuple[str, ...] = ()
     ignore: tuple[str, ...] = ()
     ignore_here: tuple[str, ...] = ()
-    fail_on: Severity = Severity.ERROR
+    fail_on: FailOn = "incomplete"
     marks: Marks = Marks()  # noqa: RUF009 - frozen
     dialect: str = ""
     unit: str = ""

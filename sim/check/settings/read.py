@@ -11,12 +11,13 @@ from dataclasses import dataclass, replace
 from fnmatch import translate
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, get_args
 
 from parser.dialect.choices import Marks
-from parser.findings.codes import CODES, Severity
+from parser.findings.codes import CODES
 from parser.findings.errors import SettingsError
 from parser.program import block_words, own_marks
+from sim.check.result import FailOn
 from sim.check.settings.model import WIRE_LENGTHS, CheckSettings
 from sim.setup.dialect import READ_WITH
 from sim.setup.toml.reader import load_toml, pair, refuse_unknown, section, text, truth
@@ -74,10 +75,11 @@ NAMES = ("drycut.toml", "pyproject.toml")
 """Names of settings files; in one folder the first goes first."""
 _PROJECT = NAMES[1]
 _KEYS = (
-    *("root", "machine", "start_mm", "open", "select", "ignore", "fail_on", "exclude", "baseline"),
+    *("root", "machine", "start_mm", "open", "select", "ignore", "fail_on", "exclude", "include", "baseline"),
     *(key.name for key in READ_WITH),
     *("end_marks", "pause_marks", "wire", "per_file_ignores"),
 )
+FAIL_ON: tuple[FailOn, ...] = get_args(FailOn)
 _WIRE = {key.name: key for key in WIRE_LENGTHS.values()}
 
 
@@ -100,6 +102,8 @@ class SettingsFile:
         Codes that are not shown of some files.
     exclude
         Files and folders that are left out where a folder is looked through.
+    include
+        Files that are checked there though their names do not end as those of programs do.
     baseline
         File of known findings; None where it names none.
     """
@@ -107,6 +111,7 @@ class SettingsFile:
     settings: CheckSettings = CheckSettings()  # noqa: RUF009 - frozen
     per_file_ignores: tuple[IgnoredOf, ...] = ()
     exclude: tuple[PathPattern, ...] = ()
+    include: tuple[PathPattern, ...] = ()
     baseline: Path | None = None
 
     def settings_of(self, path: Path) -> CheckSettings:
@@ -148,7 +153,7 @@ def read_settings(content: Mapping[str, Any], file: Path, name: str) -> Settings
         may_stay_open=truth(content, "open", name),
         select=code_list(content.get("select", []), f"{name}: select"),
         ignore=code_list(content.get("ignore", []), f"{name}: ignore"),
-        fail_on=severity(content.get("fail_on", Severity.ERROR), f"{name}: fail_on"),
+        fail_on=mildest_failing(content.get("fail_on", "incomplete"), f"{name}: fail_on"),
         marks=_marks(content, name),
         **lengths,
         **{key.path: key.read(content, name) for key in READ_WITH},
@@ -158,6 +163,7 @@ def read_settings(content: Mapping[str, Any], file: Path, name: str) -> Settings
         settings,
         _per_file_ignores(content, file.parent, name),
         pattern_list(content.get("exclude", []), file.parent, f"{name}: exclude"),
+        pattern_list(content.get("include", []), file.parent, f"{name}: include"),
         file.parent / text(content, "baseline", name) if "baseline" in content else None,
     )
 
@@ -173,11 +179,12 @@ def code_list(value: object, where: str) -> tuple[str, ...]:
     return codes
 
 
-def severity(value: object, where: str) -> Severity:
-    """Least severity that fails: warning or error. SettingsError otherwise."""
-    if value not in (Severity.WARNING, Severity.ERROR):
-        raise SettingsError("no-severity", where=where, found=value)
-    return Severity(str(value))
+def mildest_failing(value: object, where: str) -> FailOn:
+    """The mildest that fails a file. SettingsError for what is none of those."""
+    for known in FAIL_ON:
+        if value == known:
+            return known
+    raise SettingsError("no-severity", where=where, found=value)
 
 
 def _per_file_ignores(content: Mapping[str, Any], folder: Path, where: str) -> tuple[IgnoredOf, ...]:

@@ -2,8 +2,8 @@
 
 from typing import Any, Final
 
-from parser.findings.codes import Severity
 from sim.check.settings.model import WIRE_LENGTHS
+from sim.check.settings.read import FAIL_ON
 from sim.setup.dialect import READ_WITH
 from sim.setup.file_schemas import DRAFT
 from sim.setup.toml.kinds import pair_schema
@@ -24,9 +24,10 @@ def settings_schema() -> dict[str, Any]:
         "open": ("contours may stay open", {"type": "boolean"}),
         "select": ("codes of findings that are shown, or their beginnings", _CODES),
         "ignore": ("codes of findings that are not shown, or their beginnings", _CODES),
-        "fail_on": ("least severity that fails", {"enum": [str(Severity.WARNING), str(Severity.ERROR)]}),
+        "fail_on": ("the mildest that fails: errors; also incomplete checks; also warnings", {"enum": list(FAIL_ON)}),
         "exclude": ("patterns of files that are left out where a folder is looked through", _list_of(_TEXT)),
-        "baseline": ("file of known findings", _TEXT),
+        "include": ("patterns of files that are programs whatever their names end in", _list_of(_TEXT)),
+        "baseline": ("file of known findings and incomplete checks", _TEXT),
         **{key.name: (f"{key.name} of ISO programs", key.schema) for key in READ_WITH},
         "end_marks": ("more words for the end of a program", _MARKS),
         "pause_marks": ("more words for a pause in a program", _MARKS),

@@ -18,7 +18,7 @@ from parser.findings.codes import CODES
 from parser.findings.findings import Finding, file_order
 from parser.program import Program
 from parser.text.source import Span
-from sim.check.result import CheckResult, CheckState, Silenced, fingerprints
+from sim.check.result import CheckResult, CheckState, Silenced, fingerprints, gap_marks
 from sim.check.settings import CheckSettings
 
 _WHOLE_FILE = 0
@@ -170,13 +170,22 @@ def chosen(findings: Iterable[Finding], settings: CheckSettings) -> Sifted:
 
 
 def without_known(result: CheckResult, known: frozenset[str]) -> CheckResult:
-    """A result without the findings whose fingerprints are known, which then count as silenced.
+    """A result without the findings whose fingerprints are known; checks that did not end for known reasons count so.
 
-    A file that is no program keeps all of them.
+    Both are counted. A file that is no program keeps all of them.
     """
     if not known or result.unreadable:
         return result
     marks = fingerprints(result)
     unknown = tuple(finding for finding, mark in zip(result.findings, marks, strict=True) if mark not in known)
-    count = len(result.findings) - len(unknown)
-    return replace(result, findings=unknown, silenced=result.silenced._replace(baseline=count))
+    checks = tuple(_with_known(check, known) for check in result.coverage.checks)
+    hidden = result.silenced._replace(
+        baseline=len(result.findings) - len(unknown), checks=sum(check.state == "known" for check in checks)
+    )
+    coverage = result.coverage._replace(checks=checks)
+    return replace(result, findings=unknown, silenced=hidden, coverage=coverage)
+
+
+def _with_known(check: CheckState, known: frozenset[str]) -> CheckState:
+    is_known = check.state == "incomplete" and known.issuperset(gap_marks(check))
+    return check._replace(state="known") if is_known else check

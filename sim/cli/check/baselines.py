@@ -8,7 +8,7 @@ from parser.findings.catalogue import Language
 from parser.text.encoding import printable
 from sim.check.file_check import Job
 from sim.check.result import CheckResult
-from sim.check.silence.baseline import Baseline, baseline_text, findings_of
+from sim.check.silence.baseline import Baseline, baseline_text, known_of
 from sim.check.silence.directives import without_known
 from sim.show.texts import Words
 
@@ -26,7 +26,7 @@ class Ledger(ABC):
 
 
 class AgainstBaseline(Ledger):
-    """Results held against a baseline: known findings that do not occur any more are counted."""
+    """Results held against a baseline: what is known and does not occur any more is counted."""
 
     def __init__(self) -> None:
         self._stale = 0
@@ -54,7 +54,7 @@ class Written(Ledger):
     def watched(self, jobs: Sequence[Job], results: Iterable[CheckResult]) -> Iterator[CheckResult]:
         """The results without their findings, as the next check will show them."""
         for job, result in zip(jobs, results, strict=True):
-            known = findings_of(result)
+            known = known_of(result)
             self._known[self._baseline.key(_placed(Path(job.name)))] = known
             yield without_known(result, frozenset(known))
 

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from sim.check.file_check import Job
     from sim.check.result import CheckResult
     from sim.cli.check.baselines import Ledger
-    from sim.cli.check.jobs import CheckOptions
+    from sim.cli.check.jobs import CheckOptions, Jobs
     from sim.cli.check.outputs import Output
     from sim.show.findings.options import Options
 
@@ -26,6 +26,7 @@ _OF_FILES = {
     "--diff": "shows-no-mends-of-stdin",
     "--watch": "watches-no-stdin",
 }
+"""Options that go without the standard input, and what to say then."""
 
 
 @click.command(cls=Spoken)
@@ -43,6 +44,8 @@ def check(  # noqa: PLR0913 - click hands over each option by its name
     exit_zero: bool,
     diff: bool,
     watch: bool,
+    show_files: bool,
+    show_settings: bool,
     jobs: int | None,
     scheduler: str | None,
     **values: Any,
@@ -55,24 +58,40 @@ def check(  # noqa: PLR0913 - click hands over each option by its name
     drycut check part.3b --fix
     drycut check die.iso --dialect robofil --offset D0=0.11mm
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
-    from sim.cli.check.jobs import check_options_of
+    from sim.cli.check.jobs import check_options_of, choice_of
     from sim.cli.check.outputs import outputs_of
     from sim.show.findings.options import Options
 
-    _refuse_contradictions(files, formats, values, {"--fix": fix, "--diff": diff, "--watch": watch})
+    _refuse_contradictions(
+        files,
+        formats,
+        values,
+        {
+            "--fix": fix,
+            "--diff": diff,
+            "--watch": watch,
+            "--show-files": show_files,
+            "--show-settings": show_settings,
+        },
+    )
     options, style = check_options_of(values), Options(spoken(), quiet=quiet, statistics=statistics)
     outputs = outputs_of(formats, output_file, options.write_baseline)
     work = _Work(files, options, outputs, style, Spread(jobs, scheduler))
     if watch:
         from sim.cli.check import watching
 
-        watching.watch(files, lambda: _check(work, _jobs(work)), style.language)
+        watching.watch(files, lambda: choice_of(options), lambda: _check(work, _jobs(work)), style.language)
     to_check = _jobs(work)
+    if show_files or show_settings:
+        from sim.cli.check import shown
+
+        (shown.show_files if show_files else shown.show_settings)(to_check, style.language)
+        return
     if diff:
         from sim.cli.check.mends import show_diffs
 
-        raise _exit(show_diffs(to_check, output_file, style.language), is_zero=exit_zero)
-    code = _fix(to_check, style.language) if fix else 0
+        raise _exit(show_diffs(to_check.jobs, output_file, style.language), is_zero=exit_zero)
+    code = _fix(to_check.jobs, style.language) if fix else 0
     raise _exit(max(code, _check(work, to_check)), is_zero=exit_zero)
 
 
@@ -106,7 +125,7 @@ def _refuse_contradictions(
     chosen = [option for option, is_given in given.items() if is_given]
     if len(chosen) > 1:
         raise click.UsageError(Message("options-exclude-each-other", options=" and ".join(chosen)))
-    if chosen and STDIN in files:
+    if STDIN in files and chosen and chosen[0] in _OF_FILES:
         raise click.UsageError(Message(_OF_FILES[chosen[0]], option=chosen[0]))
     needs = {"--format": formats, "--write-baseline": settings["write_baseline"]}
     dependent = [option for option, is_given in needs.items() if is_given]
@@ -116,15 +135,15 @@ def _refuse_contradictions(
         raise click.UsageError(Message("watch-writes-no-baseline"))
 
 
-def _jobs(work: _Work) -> list["Job"]:
+def _jobs(work: _Work) -> "Jobs":
     """The jobs; UsageError where an output would take the place of what is read."""
     from sim.cli.check.jobs import jobs_of
     from sim.cli.check.outputs import refuse_inputs
 
-    jobs, options = jobs_of(work.names, work.options), work.options
+    found, options = jobs_of(work.names, work.options), work.options
     written = (*(output.file for output in work.outputs), options.write_baseline)
-    refuse_inputs(filter(None, written), jobs, filter(None, (options.baseline, options.config)))
-    return jobs
+    refuse_inputs(filter(None, written), found.jobs, filter(None, (options.baseline, options.config)))
+    return found
 
 
 def _fix(jobs: Sequence["Job"], language: "Language") -> int:
@@ -134,14 +153,19 @@ def _fix(jobs: Sequence["Job"], language: "Language") -> int:
     return 0 if fix_files(jobs, language) else 2
 
 
-def _check(work: _Work, jobs: Sequence["Job"]) -> int:
-    """Check the files of the jobs and write what was found; the exit code."""
+def _check(work: _Work, found: "Jobs") -> int:
+    """Check the files of the jobs and write what was found; the exit code. What is passed over is told on stderr."""
     from sim.cli.check.outputs import write
     from sim.show.terminal import printer
 
+    jobs = found.jobs
     outcome, ledger, language = _Outcome(), _ledger(work.options), work.style.language
     write(outcome.watched(ledger.watched(jobs, _results(jobs, work.spread))), work.outputs, work.style)
     printer.write(ledger.closed(language), err=True)
+    if found.passed_over and not work.style.quiet:
+        from sim.cli.check.shown import passed_over_text
+
+        printer.say(passed_over_text(found.passed_over, language), err=True)
     return outcome.exit_code(language)
 
 

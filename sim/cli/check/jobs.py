@@ -8,11 +8,20 @@ import click
 
 from parser.dialect.choices import merged
 from parser.files.reading import read_stdin
+from parser.findings.codes import CODES
 from parser.findings.messages import Message
 from sim.check.file_check import Job
-from sim.check.files import find_files
+from sim.check.files import Choice, find_files
 from sim.check.settings.model import WIRE_LENGTHS
-from sim.check.settings.read import NO_SETTINGS, PathPattern, SettingsFile, code_list, pattern_list, severity
+from sim.check.settings.read import (
+    NAMES,
+    NO_SETTINGS,
+    PathPattern,
+    SettingsFile,
+    code_list,
+    mildest_failing,
+    pattern_list,
+)
 from sim.check.settings.search import SettingsSearch
 from sim.cli.lengths import taken_lengths
 
@@ -40,6 +49,7 @@ class CheckOptions(NamedTuple):
     unit: str | None
     offset: tuple["RegisterSet", ...]
     exclude: tuple[str, ...]
+    include: tuple[str, ...]
     config: Path | None
     no_config: bool
     baseline: Path | None
@@ -51,8 +61,15 @@ def check_options_of(values: dict[str, Any]) -> CheckOptions:
     return CheckOptions(lengths=taken_lengths(WIRE_LENGTHS.values(), values), **values)
 
 
-def jobs_of(names: Sequence[str], options: CheckOptions) -> list[Job]:
-    """A job for each file that the names lead to.
+class Jobs(NamedTuple):
+    """A job for each file that names lead to, and the files of their folders that are passed over."""
+
+    jobs: list[Job]
+    passed_over: list[str]
+
+
+def jobs_of(names: Sequence[str], options: CheckOptions) -> Jobs:
+    """The jobs of names.
 
     Raises FileUnreadableError for a name that leads to none, SettingsError for settings that cannot be.
     """
@@ -61,7 +78,14 @@ def jobs_of(names: Sequence[str], options: CheckOptions) -> list[Job]:
     if options.baseline and options.write_baseline:
         raise click.UsageError(Message("baseline-and-write-baseline"))
     making = _Making(options)
-    return [making.job(name) for name in find_files(names, making.is_excluded)]
+    found = find_files(names, making.choice)
+    jobs = [making.job(name) for name in found.files]
+    return Jobs(jobs, [name for name in found.passed_over if not making.is_own(Path(name))])
+
+
+def choice_of(options: CheckOptions) -> Choice:
+    """Which files of folders are checked. Raises what `jobs_of` raises of settings."""
+    return _Making(options).choice
 
 
 class _Making:
@@ -74,15 +98,32 @@ class _Making:
         self._only = (
             self._search.named(options.config) if options.config else NO_SETTINGS if options.no_config else None
         )
-        self._exclude = (
-            pattern_list(list(options.exclude), self._search.working, "--exclude") if options.exclude else None
-        )
+        self._exclude = self._patterns(options.exclude, "--exclude")
+        self._include = self._patterns(options.include, "--include")
         self._baselines: dict[Path, Baseline] = {}
 
-    def is_excluded(self, path: Path) -> bool:
-        """Whether a file or folder is left out where a folder is looked through."""
+    @property
+    def choice(self) -> Choice:
+        """Which files of folders are checked."""
+        return Choice(self._is_excluded, self._is_included)
+
+    def is_own(self, path: Path) -> bool:
+        """Whether a file is one of drycut's own: settings, or a baseline that was read."""
+        return path.name in NAMES or self._search.placed(path) in self._baselines
+
+    def _is_excluded(self, path: Path) -> bool:
         placed = self._search.placed(path)
-        return any(pattern.matches(placed) for pattern in self._patterns(placed))
+        patterns = self._near(placed).exclude if self._exclude is None else self._exclude
+        return any(pattern.matches(placed) for pattern in patterns)
+
+    def _is_included(self, path: Path) -> bool:
+        placed = self._search.placed(path)
+        patterns = self._near(placed).include if self._include is None else self._include
+        return any(pattern.matches(placed) for pattern in patterns)
+
+    def _patterns(self, given: tuple[str, ...], option: str) -> tuple[PathPattern, ...] | None:
+        """Patterns that an option gives; None where it is left out."""
+        return pattern_list(list(given), self._search.working, option) if given else None
 
     def job(self, name: str) -> Job:
         """The job of one file; ``-`` is the standard input, which counts as a file of the working folder."""
@@ -92,16 +133,13 @@ class _Making:
         _ = settings.demands  # settings that contradict each other are told before the first file
         baseline = self._baseline(near)
         of_file = baseline.of(placed) if baseline else {}
-        known = frozenset(mark for mark, code in of_file.items() if settings.shows(code))
+        known = frozenset(mark for mark, code in of_file.items() if code not in CODES or settings.shows(code))
         if name == STDIN:
             return Job("<stdin>", read_stdin(), settings, known)
         return Job(name, Path(name), settings, known)
 
     def _near(self, placed: Path) -> SettingsFile:
         return self._only or self._search.near(placed.parent)
-
-    def _patterns(self, placed: Path) -> tuple[PathPattern, ...]:
-        return self._near(placed).exclude if self._exclude is None else self._exclude
 
     def _baseline(self, near: SettingsFile) -> "Baseline | None":
         path = self._asked.baseline or near.baseline
@@ -124,7 +162,7 @@ def _settings(options: CheckOptions) -> dict[str, Any]:
     if options.ignore is not None:
         given["ignore"] = code_list(options.ignore.split(","), "--ignore")
     if options.fail_on is not None:
-        given["fail_on"] = severity(options.fail_on, "--fail-on")
+        given["fail_on"] = mildest_failing(options.fail_on, "--fail-on")
     if options.machine is not None:
         from sim.setup.machine.machine import load_machine
 

@@ -7,6 +7,7 @@ from typing import Any, TypeVar
 import click
 
 from parser.findings.messages import Message
+from sim.check.settings.read import FAIL_ON
 from sim.cli.check.outputs import Output
 from sim.cli.dialect_options import READ_WITH, RegisterValue
 from sim.cli.lengths import length_options
@@ -51,10 +52,15 @@ _OUTPUT = (
 _SELECTION = (
     click.option("--select", metavar="CODES"),
     click.option("--ignore", metavar="CODES"),
-    click.option("--fail-on", type=click.Choice(["warning", "error"])),
+    click.option("--fail-on", type=click.Choice(FAIL_ON)),
     click.option("--exit-zero", is_flag=True),
     click.option(
         "--exclude",
+        multiple=True,
+        metavar="PATTERN",
+    ),
+    click.option(
+        "--include",
         multiple=True,
         metavar="PATTERN",
     ),
@@ -62,6 +68,10 @@ _SELECTION = (
     click.option("--no-config", is_flag=True),
     click.option("--baseline", type=_FILE, metavar="FILE"),
     click.option("--write-baseline", type=_FILE, metavar="FILE"),
+)
+_LISTS = (
+    click.option("--show-files", is_flag=True),
+    click.option("--show-settings", is_flag=True),
 )
 _MENDS = (
     click.option("--fix", is_flag=True),
@@ -85,6 +95,6 @@ _ISO = (
 
 def check_options(command: Command) -> Command:
     """Give a command the options of ``drycut check``."""
-    for option in reversed((*_OUTPUT, *_SELECTION, *_MENDS, *_WATCH, *_DEMANDS, *_ISO)):
+    for option in reversed((*_OUTPUT, *_SELECTION, *_LISTS, *_MENDS, *_WATCH, *_DEMANDS, *_ISO)):
         command = option(command)
     return command

@@ -12,7 +12,7 @@ import click
 
 from parser.findings.catalogue import Language
 from parser.findings.errors import DrycutError
-from parser.program import suffixes
+from sim.check.files import Choice
 from sim.check.settings.read import NAMES
 from sim.cli.spoken import complaint
 from sim.show.terminal.printer import clear, say
@@ -32,19 +32,24 @@ class _FileState(NamedTuple):
     number: int
 
 
-def watch(names: Sequence[str], check: Callable[[], object], language: Language) -> NoReturn:
+def watch(
+    names: Sequence[str], choice: Callable[[], Choice], check: Callable[[], object], language: Language
+) -> NoReturn:
     """Check, and again after each change of what the names lead to, until KeyboardInterrupt.
 
-    What keeps the first check from being done is raised; later it is told, as a later change may mend it.
+    `choice` says which files of folders count, as settings stand then. What keeps the first check from being done is
+    raised; later it is told, as a later change may mend it.
     """
-    seen = _look(names)
+    counts = choice()
+    seen = _look(names, counts)
     clear()
     check()
     while True:
         say(Words(language)("findings.watching"), err=True)
-        seen = _settled_change(names, seen)
+        seen = _settled_change(names, counts, seen)
         clear()
         try:
+            counts = choice()
             check()
         except DrycutError as error:
             say(Words(language)("commands.error", message=error), err=True)
@@ -57,23 +62,23 @@ def rest_s(look_s: float) -> float:
     return min(max(_LEAST_REST_S, _RESTS_A_LOOK * look_s), _MOST_REST_S)
 
 
-def _settled_change(names: Sequence[str], before: dict[str, _FileState]) -> dict[str, _FileState]:
+def _settled_change(names: Sequence[str], choice: Choice, before: dict[str, _FileState]) -> dict[str, _FileState]:
     """What is seen as soon as it is not as before, and the same at two looks: a file half written changes again."""
     last, look_s = before, 0.0
     while True:
         time.sleep(rest_s(look_s))
         began_s = time.monotonic()
-        now = _look(names)
+        now = _look(names, choice)
         look_s = time.monotonic() - began_s
         if now == last != before:
             return now
         last = now
 
 
-def _look(names: Sequence[str]) -> dict[str, _FileState]:
+def _look(names: Sequence[str], choice: Choice) -> dict[str, _FileState]:
     """The files that the names lead to, and settings that may count for them; none that cannot be looked at."""
     seen: dict[str, _FileState] = {}
-    programs = {path for name in names for path in _paths(name)}
+    programs = {path for name in names for path in _paths(name, choice)}
     folders = {os.path.dirname(path) for path in programs}  # noqa: PTH120 - as below
     for path in (*programs, *{file for folder in folders for file in _settings_above(folder)}):
         try:
@@ -91,15 +96,14 @@ def _settings_above(folder: str) -> tuple[str, ...]:
     return tuple(str(above / name) for above in (here, *here.parents) for name in NAMES)
 
 
-def _paths(name: str) -> Iterator[str]:
+def _paths(name: str, choice: Choice) -> Iterator[str]:
     """What `sim.check.files.find_files` would find, without telling files apart that have several names."""
     path = Path(name)
     if path.is_dir():
-        ends = suffixes()
         for here, _, files in os.walk(name):
-            yield from (f"{here}/{file}" for file in files if file.lower().endswith(ends))
+            yield from (f"{here}/{file}" for file in files if choice.has(Path(here, file)))
     elif glob.has_magic(name) and not path.is_file():
         for match in glob.glob(name, recursive=True):  # noqa: PTH207 - Path.glob refuses absolute patterns
-            yield from _paths(match)
+            yield from _paths(match, choice)
     else:
         yield name

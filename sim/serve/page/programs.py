@@ -118,7 +118,7 @@ class Programs:
 
     def _take(self, folder: Path) -> None:
         """Find the programs of the folder, which get the next numbers."""
-        found = [Path(file) for file in find_files([str(folder)], lambda _: False)]
+        found = [Path(file) for file in find_files([str(folder)]).files]
         inside = [file for file in found if self._is_inside(file)][:MOST]
         self._first, self._left_out, self._rows = len(self._files), len(found) - len(inside), []
         self._files += inside

@@ -38,7 +38,7 @@ def _file(result: CheckResult, language: Language) -> Iterator[str]:
 def _sums(totals: Totals, language: Language) -> Iterator[str]:
     hidden, files, say = totals.silenced, totals.settings_files, Words(language)
     if any(hidden):
-        properties = {"title": say("findings.hidden", n=sum(hidden))}
+        properties = {"title": say("findings.hidden", n=hidden.findings)}
         yield _command("notice", properties, silenced(hidden, files, language))
     yield from filter(None, [printable(settings(hidden, files, language)), summary(totals, language)])
 

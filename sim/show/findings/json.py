@@ -71,6 +71,7 @@ def _silenced(silenced: Silenced) -> SilencedEntry:
         "settings": silenced.settings,
         "remarks": silenced.remarks,
         "baseline": silenced.baseline,
+        "checks": silenced.checks,
     }
 
 

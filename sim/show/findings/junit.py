@@ -30,14 +30,18 @@ _EPOCH = "1970-01-01T00:00:00"
 
 
 class _Case(NamedTuple):
+    """A check of a file, the findings of it that fail, and whether its not coming to its end does."""
+
     check: CheckState
     failures: tuple[Finding, ...]
+    is_to_end: bool
 
     @property
     def outcome(self) -> str:
         if self.failures:
             return "failure"
-        return {"complete": "", "incomplete": "error", "not asked": "skipped"}[self.check.state]
+        gap = "error" if self.is_to_end else "skipped"
+        return {"complete": "", "incomplete": gap, "known": "skipped", "not asked": "skipped"}[self.check.state]
 
 
 def render(results: Iterable[CheckResult], options: Options) -> Iterator[str]:
@@ -80,7 +84,10 @@ def _cases(result: CheckResult) -> list[_Case]:
         if result.fails(finding.severity):
             failures.setdefault(CODES[finding.code].check or finding.code, []).append(finding)
     states = {check.name: check for check in result.coverage.checks}
-    return [_Case(states.get(name, CheckState(name)), tuple(found)) for name, found in failures.items()]
+    return [
+        _Case(states.get(name, CheckState(name)), tuple(found), result.fail_on != "error")
+        for name, found in failures.items()
+    ]
 
 
 def _add_properties(suite: ET.Element, result: CheckResult) -> None:

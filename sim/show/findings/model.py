@@ -5,7 +5,6 @@ from typing import Annotated, Final, Literal, TypedDict
 from parser.documents.fields import (
     AssumptionEntry,
     BlockCountsEntry,
-    CheckProgress,
     CheckVerdict,
     Code,
     Count,
@@ -25,12 +24,13 @@ from parser.documents.schema import Document
 
 
 class SilencedEntry(TypedDict):
-    """How many findings were silenced, by what."""
+    """How many findings were silenced, by what; and checks that did not end, as the baseline has it."""
 
     options: Count
     settings: Count
     remarks: Count
     baseline: Count
+    checks: Count
 
 
 class CheckEntry(TypedDict):
@@ -38,7 +38,7 @@ class CheckEntry(TypedDict):
 
     name: Annotated[str, matching(r"^check-[a-z-]+$")]
     title: Text
-    state: CheckProgress
+    state: Annotated[str, one_of("complete", "incomplete", "known", "not asked")]
     reason: Annotated[str, matching(r"^reason-[a-z-]+$")] | None
     reason_text: Text | None
 

@@ -15,7 +15,7 @@ from parser.text.excerpt import cells
 from sim.check.result import CheckResult
 from sim.show.findings.options import Options
 from sim.show.findings.totals import BLOCKS, Totals
-from sim.show.findings.wording import reach, read_as, reasons, silenced, silencers, summary, verdict, verdicts
+from sim.show.findings.wording import counted, reach, read_as, reasons, silenced, silencers, summary, verdict, verdicts
 from sim.show.terminal.colours import COLOURS, painted, styled
 from sim.show.terminal.finding import finding_lines
 from sim.show.terminal.wrap import wrapped
@@ -46,6 +46,7 @@ def _sums(totals: Totals, language: Language) -> list[tuple[str, str]]:
     return [
         (say("findings.total-files"), f"{files:,} ({by_verdict})" if by_verdict else f"{files:,}"),
         *_checks(totals, "incomplete", say("findings.total-incomplete"), language),
+        *_checks(totals, "known", say("findings.total-known"), language),
         *_checks(totals, "not asked", say("findings.total-not-asked"), language),
         *_silenced(totals, language),
         (say("findings.total-blocks"), say("findings.blocks", **blocks)),
@@ -85,14 +86,24 @@ _INDENT = "    "
 
 
 def render(results: Iterable[CheckResult], options: Options) -> Iterator[str]:
-    """Text of the results, file by file; a summary where there are several; a table of counts where asked for."""
-    totals = Totals()
+    """Text of the results, file by file; a summary where there are several; a table of counts where asked for.
+
+    A file that passes without a finding has a line of its own where it is the only one.
+    """
+    totals, last = Totals(), ""
     for result in totals.over(results):
-        yield _lines(_file(result, options))
+        is_silent = not result.findings and result.verdict == "pass"
+        if not is_silent:
+            yield _lines(_file(result, options))
+        elif totals.files.total() == 1:
+            last = _lines(_file(result, options))
+    if totals.files.total() == 1 and not options.quiet:
+        yield last
     if totals.files.total() > 1 and not options.quiet:
         yield _lines(_styled(line, "bold", options) for line in _wrapped(summary(totals, options.language), options))
-    if options.quiet:  # the lines of files that pass say nothing of it
-        yield _lines(_wrapped(silenced(totals.silenced, totals.settings_files, options.language), options))
+    if options.quiet or totals.files.total() > 1:  # files that pass have no lines to say it
+        for line in counted(totals, options.language):
+            yield _lines(_wrapped(line, options))
     if options.statistics:
         yield _lines(table(totals, options.language, options.width))
 
@@ -104,8 +115,7 @@ def _file(result: CheckResult, options: Options) -> Iterator[str]:
         excerpt = result.excerpts.get(finding.line)
         for line in finding_lines(result.name, finding, excerpt, options.language, options.width):
             yield painted(line, finding.severity) if options.colour else "".join(part.text for part in line)
-    if result.findings or result.verdict != "pass" or not options.quiet:
-        yield from _outcome(result, options)
+    yield from _outcome(result, options)
 
 
 def _outcome(result: CheckResult, options: Options) -> Iterator[str]:

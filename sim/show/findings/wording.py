@@ -12,7 +12,7 @@ from sim.show.terminal.finding import hint, message
 from sim.show.texts import Words
 from sim.show.texts.phrases import as_read
 
-_STATES: tuple[State, ...] = ("complete", "incomplete", "not asked")
+_STATES: tuple[State, ...] = ("complete", "incomplete", "known", "not asked")
 _MOST_FILES = 3  # settings files that one line names
 
 
@@ -105,7 +105,9 @@ def _findings(counts: Mapping[Severity, int], hidden: Silenced, language: Langua
         for severity, count in counts.items()
         if count
     ]
-    return say("findings.comma").join([*parts, *([say("findings.hidden", n=sum(hidden))] if any(hidden) else [])])
+    return say("findings.comma").join(
+        [*parts, *([say("findings.hidden", n=hidden.findings)] if hidden.findings else [])]
+    )
 
 
 def _blocks(read: Coverage, language: Language) -> str:

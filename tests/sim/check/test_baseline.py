@@ -8,9 +8,9 @@ from checking import SOUND, WRONG_AXIS
 
 from parser.findings.errors import DrycutError
 from sim.check.file_check import Job, check_file
-from sim.check.result import CheckResult, Silenced
+from sim.check.result import CheckResult, CheckState, Silenced, gap_marks
 from sim.check.settings import CheckSettings
-from sim.check.silence.baseline import Baseline, baseline_text, findings_of, read_baseline
+from sim.check.silence.baseline import Baseline, baseline_text, known_of, read_baseline
 
 LABEL = "B9900B0B9900GXL4\nB9900B0B9900GXL3\n"  # 3B203
 
@@ -20,7 +20,7 @@ def checked(text: str, known: frozenset[str] = frozenset()) -> CheckResult:
 
 
 def test_known_findings_are_silenced_and_new_ones_fail() -> None:
-    known = frozenset(findings_of(checked(WRONG_AXIS)))
+    known = frozenset(known_of(checked(WRONG_AXIS)))
     again = checked(LABEL + WRONG_AXIS, known)
     assert [finding.code for finding in again.findings] == ["3B203"]
     assert again.silenced == Silenced(baseline=1)
@@ -28,7 +28,7 @@ def test_known_findings_are_silenced_and_new_ones_fail() -> None:
 
 
 def test_one_more_of_a_known_finding_is_new() -> None:
-    known = frozenset(findings_of(checked(f"{LABEL * 2}DD")))
+    known = frozenset(known_of(checked(f"{LABEL * 2}DD")))
     assert checked(f"{LABEL * 2}DD", known).findings == ()
     again = checked(f"{LABEL * 3}DD", known)
     assert ([finding.line for finding in again.findings], again.silenced.baseline) == ([5], 2)
@@ -36,7 +36,7 @@ def test_one_more_of_a_known_finding_is_new() -> None:
 
 def test_a_file_that_is_no_program_is_never_known() -> None:
     nothing = checked("hello")
-    assert findings_of(nothing) == {}
+    assert known_of(nothing) == {}
     assert checked("hello", frozenset("0" * 32)).findings == nothing.findings
 
 
@@ -83,4 +83,37 @@ def test_a_broken_baseline_is_told(tmp_path: Path, content: bytes | None, why: s
 
 
 def test_a_sound_program_has_nothing_to_know() -> None:
-    assert findings_of(checked(SOUND)) == {}
+    assert known_of(checked(SOUND)) == {}
+
+
+OPEN = "B9900B0B9900GXL1\nB5000B0B5000GXL1\nB0B9900B9900GYL2\nB3000B2000B3000GXL3\nB3000B2000B3000GXL2\nDD\n"
+TAPER = "G92 X0 Y0\nG90 G51 A1.5\nG01 X0 Y5000\nX5000 Y5000\nX5000 Y0\nX0 Y0\nG50 A0\nM02\n"
+
+
+@pytest.mark.parametrize(("name", "text"), [("a.3b", OPEN), ("a.iso", TAPER)])
+def test_a_check_that_is_known_not_to_end_fails_nothing_and_is_counted(name: str, text: str) -> None:
+    def result(known: frozenset[str] = frozenset()) -> CheckResult:
+        return check_file(Job(name, text.encode(), CheckSettings(), known))
+
+    before = known_of(result())
+    gaps = {check.name for check in result().coverage.checks if check.state == "incomplete"}
+    assert gaps
+    assert gaps <= set(before.values())
+    again = result(frozenset(before))
+    assert (again.verdict, again.findings, again.silenced.checks) == ("pass", (), len(gaps))
+    assert {check.name for check in again.coverage.checks if check.state == "known"} == gaps
+    assert not again.coverage.is_complete
+    only_findings = frozenset(mark for mark, code in before.items() if not code.startswith("check-"))
+    assert result(only_findings).verdict == "incomplete"
+
+
+def test_of_a_gap_that_words_make_each_word_is_known_by_itself() -> None:
+    one, both = (CheckState("check-blocks", "incomplete", "reason-taper", words) for words in (("A",), ("A", "B")))
+    assert set(gap_marks(one)) < set(gap_marks(both))
+    assert len(set(gap_marks(both))) == 2
+
+
+def test_a_baseline_of_findings_alone_is_read_still(tmp_path: Path) -> None:
+    file = tmp_path / "known.json"
+    file.write_text('{"schema": "drycut.baseline/1", "files": {"a.3b": {"0": "3B204"}}}', "ascii")
+    assert read_baseline(file).known == {"a.3b": {"0": "3B204"}}

@@ -31,6 +31,7 @@ open = true
 select = ["3B2"]
 ignore = ["3B102"]
 fail_on = "warning"
+include = ["*.TAP"]
 exclude = ["old"]
 baseline = "known.json"
 dialect = "fast-wire"
@@ -78,7 +79,7 @@ def test_settings_in_full_fit_theirs_which_names_the_keys_that_are_read() -> Non
         (SCENARIO, "[[pass]]\ndirection = 'same'", "'by_mm' is a required property"),
         (SCENARIO, "[expect]\nverdict = {least = 1}", "is not valid under any of the given schemas"),
         (MACHINE, "name = 'mill'", "'table' is a required property"),
-        (SETTINGS, "fail_on = 'note'", "'note' is not one of ['warning', 'error']"),
+        (SETTINGS, "fail_on = 'note'", "'note' is not one of ['error', 'incomplete', 'warning']"),
         (SETTINGS, "end_marks = ['ABCDE']", "'ABCDE' does not match"),
     ],
 )

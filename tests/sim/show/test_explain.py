@@ -1,8 +1,10 @@
 """``drycut explain``: pages of codes and documents as a terminal shows them."""
 
+import json
 import re
 import tomllib
 
+import jsonschema
 import pytest
 from command import run_inside
 from places import ROOT
@@ -149,3 +151,34 @@ def test_lists_tables_and_chinese_keep_their_form() -> None:
         "",
         "中文，2 字字",
     ]
+
+
+def test_a_search_finds_the_pages_with_all_the_words_in_either_language() -> None:
+    out = told("--search", "Count AXIS")
+    codes = re.findall(r"^ +(\S+)  ", out, re.MULTILINE)
+    assert "3B204" in codes[:3]
+    for code in (each for each in codes if each in CODES):
+        texts = [
+            f"{page(code, language).title} {page(code, language).why} {page(code, language).mend}"
+            for language in LANGUAGES
+        ]
+        assert all(word in " ".join(texts).casefold() for word in ("count", "axis")), code
+    assert set(re.findall(r"^ +(\S+)  ", told("--search", "计数"), re.MULTILINE)) >= {"3B204", "3b"}
+    done = run_inside("explain", "--search", "xyzzy")
+    assert (done.returncode, done.stdout) == (2, b"")
+    assert "no page has all the words of 'xyzzy'" in done.stderr.decode()
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_pages_as_json_fit_their_schema_and_say_what_the_pages_say(language: Language) -> None:
+    schema = json.loads((ROOT / "docs" / "explain.schema.json").read_text("utf-8"))
+    every = json.loads(told("--json", "--lang", language))
+    jsonschema.Draft202012Validator(schema).validate(every)
+    assert [entry["code"] for entry in every["codes"]] == sorted(CODES)
+    assert [entry["name"] for entry in every["documents"]] == list(documents())
+    (one,) = json.loads(told("3b204", "--json", "--lang", language))["codes"]
+    assert one in every["codes"]
+    assert (one["title"], one["severity"]) == (page("3B204", language).title, "error")
+    (whole,) = json.loads(told("check", "--json", "--lang", language))["documents"]
+    assert whole["text"] == document("check", language)
+    assert run_inside("explain", "3b", "2", "--json").returncode == 2

@@ -11,7 +11,7 @@ from check_results import hostile, kind, parsed, quieted
 from jsonschema import Draft4Validator
 
 from parser.findings.catalogue import LANGUAGES, Language
-from parser.findings.codes import Severity
+from sim.check.settings.read import FAIL_ON
 from sim.show.findings import render
 from sim.show.findings.options import Options
 
@@ -43,7 +43,7 @@ def test_gitlab(language: Language) -> None:
 @pytest.mark.parametrize("name", ["JUnit.xsd", "junit-10.xsd"])
 def test_junit(language: Language, name: str) -> None:
     schema = xmlschema.XMLSchema(public(name))
-    for fail_on in Severity:
+    for fail_on in FAIL_ON:
         for results in (kind(), hostile(), quieted(), []):
             strict = [replace(one, fail_on=fail_on) for one in results]
             schema.validate(parsed("".join(render("junit", strict, Options(language)))))
