@@ -101,9 +101,17 @@ def _paths(name: str, choice: Choice) -> Iterator[str]:
     path = Path(name)
     if path.is_dir():
         for here, _, files in os.walk(name):
-            yield from (f"{here}/{file}" for file in files if choice.has(Path(here, file)))
+            yield from (f"{here}/{file}" for file in files if _counts(choice, Path(here, file)))
     elif glob.has_magic(name) and not path.is_file():
         for match in glob.glob(name, recursive=True):  # noqa: PTH207 - Path.glob refuses absolute patterns
             yield from _paths(match, choice)
     else:
         yield name
+
+
+def _counts(choice: Choice, file: Path) -> bool:
+    """Whether a file of a folder counts; by its suffix alone where settings that are wrong just now do not say."""
+    try:
+        return choice.has(file)
+    except DrycutError:
+        return False
