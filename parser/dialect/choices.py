@@ -32,6 +32,31 @@ Registers = tuple[tuple[str, float], ...]
 """Values of offset registers, µm, by their names."""
 
 
+class OwnDialect(NamedTuple):
+    """A dialect of a shop's own.
+
+    Attributes
+    ----------
+    name
+        As people call it; none of a profile.
+    base
+        Name of the profile that it changes.
+    changed
+        The values that it has in place of those, JSON.
+    """
+
+    name: str
+    base: str
+    changed: str
+
+    def __str__(self) -> str:
+        return self.name
+
+
+ChosenDialect = str | OwnDialect
+"""The name of a profile, or a dialect of one's own; empty where the text is to tell it."""
+
+
 class Choices(NamedTuple):
     """What is told of a program besides its text, by options, settings and machine files.
 
@@ -40,7 +65,7 @@ class Choices(NamedTuple):
     marks
         Further marks.
     dialect
-        Name of the profile of its dialect, such as ``fanuc``; empty where the text is to tell it.
+        Its dialect, such as ``fanuc``; empty where the text is to tell it.
     unit
         Of its numbers: ``um``, ``mm`` or ``inch``; empty where text and dialect tell it.
     registers
@@ -49,7 +74,7 @@ class Choices(NamedTuple):
     """
 
     marks: Marks = STANDARD_MARKS
-    dialect: str = ""
+    dialect: ChosenDialect = ""
     unit: str = ""
     registers: Registers = ()
 

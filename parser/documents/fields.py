@@ -4,6 +4,7 @@ A document is a `TypedDict`, so that mypy holds what is written against the mode
 degrees, unless the name of a field says otherwise.
 """
 
+import re
 from typing import Annotated, Any, Literal, NamedTuple, TypedDict
 
 
@@ -64,8 +65,9 @@ DIALECTS = (
     *("3B", "4B", "3B+4B", "fast-wire", "classroom", "skd2", "robofil", "sodick", "mitsubishi", "fanuc"),
     *("patent-mill", "common", "strict", "PMAC"),
 )
-DialectName = Annotated[str, one_of(*DIALECTS)]
-"""Dialect of a program, of ISO the profile that it was read by."""
+OWN_DIALECT = "[a-z0-9][a-z0-9_-]*"
+DialectName = Annotated[str, matching(rf"^(?:{'|'.join(map(re.escape, DIALECTS))}|{OWN_DIALECT})$")]
+"""Dialect of a program, of ISO the profile that it was read by, or a dialect of a shop's own."""
 AxisName = Annotated[str, one_of("X", "Y")]
 CurveName = Annotated[str, one_of("line", "arc", "jump")]
 Sense = Annotated[str, one_of("ccw", "cw")]

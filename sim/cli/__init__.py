@@ -23,6 +23,7 @@ _COMMANDS = {
     "compare": "sim.cli.compare",
     "convert": "sim.cli.convert",
     "decode": "sim.cli.decode",
+    "dialect": "sim.cli.dialect",
     "drill": "sim.cli.drill",
     "draw": "sim.cli.draw",
     "example": "sim.cli.example",

@@ -11,6 +11,7 @@ from sim.cli.spoken import Spoken, spoken, words
 from sim.cli.spoken.values import FilePath
 
 if TYPE_CHECKING:
+    from parser.dialect.choices import ChosenDialect
     from parser.program import Program
     from sim.setup.scenario import Scenario
 
@@ -34,7 +35,7 @@ def compare(
     *,
     path: Path,
     offset: tuple[Any, ...],
-    dialect: str | None,
+    dialect: "ChosenDialect | None",
     unit: str | None,
     as_json: bool,
     **options: Any,

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from controller.decode.blocks import Decoded
+    from parser.dialect.choices import ChosenDialect
 
 
 @click.command(cls=Spoken)
@@ -33,7 +34,7 @@ def decode(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     path: Path,
     number: int | None,
     as_json: bool,
-    dialect: str | None,
+    dialect: "ChosenDialect | None",
     unit: str | None,
     registers: tuple[RegisterSet, ...],
 ) -> None:

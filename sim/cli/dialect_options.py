@@ -1,6 +1,7 @@
 """Options that say what an ISO program is read with: dialect, unit, values of offset registers."""
 
 from collections.abc import Callable, Iterable
+from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
 import click
@@ -31,6 +32,27 @@ class Dialect(click.ParamType):  # type: ignore[type-arg]  # generic in newer cl
         if value not in dialects():
             self.fail(Message("not-one-of", found=value, known=", ".join(dialects())), param, ctx)
         return str(value)
+
+
+class OwnOrNamed(Dialect):
+    """The name of a dialect of ISO, or the file of one of a shop's own, which ends in ``.toml``.
+
+    `is_any`: any name is taken, as settings may define it.
+    """
+
+    name = "name|FILE.toml"
+
+    def __init__(self, *, is_any: bool = False) -> None:
+        self._is_any = is_any
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """The name, or the dialect of the file. FileUnreadableError and SettingsError where that is none."""
+        if not isinstance(value, str) or not value.endswith(".toml"):
+            is_taken = self._is_any or not isinstance(value, str)
+            return value if is_taken else super().convert(value, param, ctx)
+        from sim.setup.dialect import own_dialect_of
+
+        return own_dialect_of(Path(value))
 
 
 class RegisterValue(click.ParamType):  # type: ignore[type-arg]  # generic in newer clicks alone
@@ -94,13 +116,10 @@ def register_set(text: str) -> RegisterSet:
     return RegisterSet(name, by_um)
 
 
-READ_WITH = (
-    click.option("--dialect", type=Dialect()),
-    click.option(
-        "--unit",
-        type=click.Choice(["um", "mm", "inch"]),
-    ),
-)
+UNIT = click.option("--unit", type=click.Choice(["um", "mm", "inch"]))
+WRITTEN_IN = (click.option("--dialect", type=Dialect()), UNIT)
+"""Of a command that writes programs."""
+READ_WITH = (click.option("--dialect", type=OwnOrNamed()), UNIT)
 """Of every command that reads programs."""
 
 

@@ -16,7 +16,7 @@ from sim.cli.spoken.values import FilePath, WholeNumber
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from parser.dialect.choices import Choices
+    from parser.dialect.choices import Choices, ChosenDialect
     from parser.program import Program
     from sim.teach.drill.drills import Drill, DrillRequest, Level
 
@@ -37,7 +37,7 @@ def drill(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     number: int,
     count: int,
     level: str | None,
-    dialect: str | None,
+    dialect: "ChosenDialect | None",
     unit: str | None,
     registers: tuple[RegisterSet, ...],
 ) -> None:

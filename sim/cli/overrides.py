@@ -15,6 +15,7 @@ from sim.setup.toml.reader import number
 from sim.show.terminal.printer import say
 
 if TYPE_CHECKING:
+    from parser.dialect.choices import ChosenDialect
     from sim.cli.dialect_options import RegisterSet
     from sim.setup.machine.machine import TableEngine
     from sim.setup.part import DrawingTarget, Offset, SharpCorners
@@ -28,7 +29,7 @@ class Overrides(NamedTuple):
     the offset of the controller, and registers that ISO programs name.
     """
 
-    dialect: str | None = None
+    dialect: "ChosenDialect | None" = None
     unit: str | None = None
     machine: str | None = None
     lengths: Mapping[str, float] = MappingProxyType({})
@@ -80,7 +81,7 @@ def overridden(path: Path, options: Overrides) -> "Scenario":
 
 
 def read_with(
-    scenario: "Scenario", dialect: str | None, unit: str | None, registers: tuple["RegisterSet", ...]
+    scenario: "Scenario", dialect: "ChosenDialect | None", unit: str | None, registers: tuple["RegisterSet", ...]
 ) -> "Scenario":
     """The scenario with what the options say of its program in place of its own values; other registers stay."""
     from parser.dialect.choices import merged

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeVar
 import click
 
 from parser.findings.messages import Message
-from sim.cli.dialect_options import READ_WITH
+from sim.cli.dialect_options import WRITTEN_IN
 from sim.cli.lengths import Length, length_options, taken_lengths
 from sim.cli.spoken.completing import offer_machines
 from sim.cli.spoken.values import WholeNumber
@@ -121,7 +121,7 @@ OPTIONS = (
     click.option("--tab", type=Length()),
     click.option("--corners", type=click.Choice(CORNERS)),
     click.option("--as", "language", type=click.Choice(["3b", "4b", "iso"])),
-    *READ_WITH,
+    *WRITTEN_IN,
     click.option("--decimals", type=WholeNumber(1, 6)),
     click.option(
         "--compensation",

@@ -6,13 +6,13 @@ A folder holds ``scenario.toml`` and the program it names; a program alone is a 
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from parser.dialect.choices import Choices, Registers, merged
+from parser.dialect.choices import Choices, ChosenDialect, Registers, merged
 from parser.findings.errors import FileUnreadableError, SettingsError
 from parser.findings.messages import system_message
 from parser.program import suffixes
 from parser.text.encoding import printable
 from parser.units import from_mm
-from sim.setup.dialect import READ_WITH
+from sim.setup.dialect import READ_WITH, chosen_dialect
 from sim.setup.expectations import EXPECT, Expectation, expect_section, read_expectation
 from sim.setup.machine.controller_model import INTERPOLATOR
 from sim.setup.machine.machine import Machine, load_machine
@@ -98,7 +98,7 @@ class Scenario:
     thickness_mm: float = DEFAULT_THICKNESS_MM
     start_mm: tuple[float, float] | None = None
     provenance: str = "not given"
-    dialect: str = ""
+    dialect: ChosenDialect = ""
     unit: str = ""
     registers: Registers = ()
     may_stay_open: bool = False
@@ -209,6 +209,7 @@ def load_scenario(path: Path | str) -> Scenario:
     value = TOP.read(top, where, others=(section.name for section in SECTIONS[1:]))
     machine = load_machine(value.pop("machine"), folder=path)
     interpolator, program = value.pop("interpolator"), value.pop("program")
+    value["dialect"] = chosen_dialect(value["dialect"], path, {}, where)
     return Scenario(
         title=value.pop("title") or printable(path.resolve().name),
         program=path / (program if "program" in content else _usual_name(path)),

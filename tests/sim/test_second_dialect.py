@@ -210,9 +210,9 @@ def test_the_report_has_its_header_and_no_words_of_steps(run: DryRun) -> None:
         assert [block[key] for key in ("count_um", "count_axis", "radius_um", "curve")] == [None] * 4
 
 
-def test_the_report_keeps_its_schema_but_for_what_it_says_of_dialects(run: DryRun) -> None:
+def test_the_report_keeps_its_schema_but_for_its_header(run: DryRun) -> None:
     complaints = validator().iter_errors(build_report(run))
-    assert {error.json_path for error in complaints} == {"$.program.dialect", "$.program.header"}
+    assert {error.json_path for error in complaints} == {"$.program.header"}
 
 
 def test_the_replay_has_its_blocks_and_lines() -> None:

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.dialect.choices import Choices
+from parser.dialect.choices import Choices, ChosenDialect
 from parser.dialect.reader import Assumption
 from parser.findings.codes import Severity
 from parser.findings.facts import ReadAs
@@ -102,6 +102,8 @@ class ToldProfile(NamedTuple):
         ``G90`` or ``G91``, in force at the first motion.
     says_centers, says_unit
         Whether the text itself says what I and J are, and its unit; or the unit was named for it.
+    dialect
+        Whose profile it is, before the scale and the modes of this listing.
     """
 
     profile: Profile
@@ -110,6 +112,7 @@ class ToldProfile(NamedTuple):
     distance: str
     says_centers: bool
     says_unit: bool
+    dialect: ChosenDialect
 
     @property
     def is_chosen(self) -> bool:
@@ -126,7 +129,8 @@ def profile_told(listing: Listing, choices: Choices) -> ToldProfile:
     """The profile of a listing: as chosen, or by its marks; ``common`` where nothing tells."""
     seen = MarksSeen(listing)
     mark = None if choices.dialect else mark_of(seen)
-    base = profile(choices.dialect or (mark.dialect if mark else "common"))
+    dialect = choices.dialect or (mark.dialect if mark else "common")
+    base = profile(dialect)
     first = _first_move(listing)
     unit_word = _last_word(listing, (*_INCH, *_METRIC), seen.first_length)
     if unit_word:
@@ -145,7 +149,7 @@ def profile_told(listing: Listing, choices: Choices) -> ToldProfile:
         assumed.append(Assumption(_ASSUMED_DISTANCE, _G[of.distance], habit))
     if not says_centers and (seen.has("I") or seen.has("J")):
         assumed.append(Assumption(_ASSUMED_CENTERS, of.centers, habit))
-    return ToldProfile(of, tuple(assumed), seen, distance or _G[of.distance], says_centers, says_unit)
+    return ToldProfile(of, tuple(assumed), seen, distance or _G[of.distance], says_centers, says_unit, dialect)
 
 
 def in_other_distance(family: ToldProfile) -> ToldProfile | None:
@@ -221,7 +225,7 @@ def mode_findings(family: ToldProfile, path: Moved) -> Iterator[Finding]:
     """Findings ISO111, ISO112, ISO215 and ISO216: what was assumed, and what does not fit the path."""
     seen = family.seen
     yield from _assumptions(family)
-    yield from _mixed_numbers(seen, family.profile)
+    yield from _mixed_numbers(seen, family.profile, family.dialect)
     yield from _other_centers(seen, family.profile, path.agreement)
     if not family.says_unit:
         yield from _other_unit(seen, family.profile, path.toolpath)
@@ -236,7 +240,7 @@ def _assumptions(family: ToldProfile) -> Iterator[Finding]:
     yield Finding("ISO112", {"dialect": of.name, "distance": family.distance, **values}, fact=ReadAs())
 
 
-def _mixed_numbers(seen: MarksSeen, of: Profile) -> Iterator[Finding]:
+def _mixed_numbers(seen: MarksSeen, of: Profile, dialect: ChosenDialect) -> Iterator[Finding]:
     """ISO111 at the first length of the rarer kind, where those with a point and those without are of two scales.
 
     A unit that was told may give both one scale. The controller keeps its own all the same: a few whole numbers among
@@ -247,7 +251,7 @@ def _mixed_numbers(seen: MarksSeen, of: Profile) -> Iterator[Finding]:
         return
     integer_um = of.integer_um
     if integer_um == of.point_um:
-        integer_um = profile(of.name).integer_um
+        integer_um = profile(dialect).integer_um
         if integer_um == of.point_um or len(integers) > _FEW * len(points):
             return
     word = int((points if len(points) < len(integers) else integers)[0])

@@ -3,6 +3,7 @@
 Values, their grades and sources: the files themselves, and docs/iso.md §6.
 """
 
+import json
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -11,6 +12,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from parser.controller_words.compensation import CompensationRules
+from parser.dialect.choices import ChosenDialect, OwnDialect
 
 _FOLDER = Path(__file__).parent
 PROFILES = (
@@ -116,18 +118,27 @@ class Profile:
 
 
 @cache
-def profile(name: str) -> Profile:
-    """A profile by its name: its own values over those of ``common``. KeyError where there is none."""
-    if name not in PROFILES:
-        raise KeyError(name)
-    values = _read("common")
-    if name != "common":
-        for key, value in _read(name).items():
-            values[key] = {**values[key], **value} if isinstance(value, dict) else value
+def profile(dialect: ChosenDialect) -> Profile:
+    """The profile of a dialect: its own values over those that it extends. KeyError where there is none."""
+    values = values_of(dialect)
     rules = CompensationRules(**values.pop("rules"))
     limits = {letter: (float(low), float(high)) for letter, (low, high) in values.pop("range").items()}
     twice, calls = tuple(values.pop("meant_twice")), tuple(values.pop("calls"))
-    return Profile(name=name, rules=rules, range=limits, meant_twice=twice, calls=calls, **values)
+    return Profile(name=str(dialect), rules=rules, range=limits, meant_twice=twice, calls=calls, **values)
+
+
+def values_of(dialect: ChosenDialect) -> dict[str, Any]:
+    """The values of a dialect: its own over those of the profile that it extends, those over ``common``."""
+    if isinstance(dialect, OwnDialect):
+        return _over(values_of(dialect.base), json.loads(dialect.changed))
+    if dialect not in PROFILES:
+        raise KeyError(dialect)
+    values = _read("common")
+    return values if dialect == "common" else _over(values, _read(dialect))
+
+
+def _over(values: dict[str, Any], own: dict[str, Any]) -> dict[str, Any]:
+    return {**values, **{key: {**values[key], **of} if isinstance(of, dict) else of for key, of in own.items()}}
 
 
 def _read(name: str) -> dict[str, Any]:

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Final, Literal, Self
 
-from parser.dialect.choices import Choices, Marks, Registers, merged
+from parser.dialect.choices import Choices, ChosenDialect, Marks, Registers, merged
 from parser.units import from_mm
 from sim.check.path_checks import Demands
 from sim.check.result import FailOn
@@ -57,7 +57,7 @@ class CheckSettings:
     ignore_here: tuple[str, ...] = ()
     fail_on: FailOn = "incomplete"
     marks: Marks = Marks()  # noqa: RUF009 - frozen
-    dialect: str = ""
+    dialect: ChosenDialect = ""
     unit: str = ""
     registers: Registers = ()
     file: str = ""

@@ -7,19 +7,19 @@ A pattern is held against the name of a file or folder alone, and against its pa
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from fnmatch import translate
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, get_args
 
-from parser.dialect.choices import Marks
+from parser.dialect.choices import ChosenDialect, Marks, OwnDialect
 from parser.findings.codes import CODES
 from parser.findings.errors import SettingsError
 from parser.program import block_words, own_marks
 from sim.check.result import FailOn
 from sim.check.settings.model import WIRE_LENGTHS, CheckSettings
-from sim.setup.dialect import READ_WITH
+from sim.setup.dialect import READ_WITH, REGISTERS, UNIT, chosen_dialect, own_dialects_of
 from sim.setup.toml.reader import load_toml, pair, refuse_unknown, section, text, truth
 
 if TYPE_CHECKING:
@@ -77,7 +77,7 @@ _PROJECT = NAMES[1]
 _KEYS = (
     *("root", "machine", "start_mm", "open", "select", "ignore", "fail_on", "exclude", "include", "baseline"),
     *(key.name for key in READ_WITH),
-    *("end_marks", "pause_marks", "wire", "per_file_ignores"),
+    *("end_marks", "pause_marks", "dialects", "wire", "per_file_ignores"),
 )
 FAIL_ON: tuple[FailOn, ...] = get_args(FailOn)
 _WIRE = {key.name: key for key in WIRE_LENGTHS.values()}
@@ -106,6 +106,8 @@ class SettingsFile:
         Files that are checked there though their names do not end as those of programs do.
     baseline
         File of known findings; None where it names none.
+    dialects
+        Dialects of a shop's own, by their names.
     """
 
     settings: CheckSettings = CheckSettings()  # noqa: RUF009 - frozen
@@ -113,6 +115,7 @@ class SettingsFile:
     exclude: tuple[PathPattern, ...] = ()
     include: tuple[PathPattern, ...] = ()
     baseline: Path | None = None
+    dialects: Mapping[str, OwnDialect] = field(default_factory=dict)
 
     def settings_of(self, path: Path) -> CheckSettings:
         """What one file is checked with; its path has no link in it but for its last part."""
@@ -147,7 +150,10 @@ def read_settings(content: Mapping[str, Any], file: Path, name: str) -> Settings
     lengths = {
         field: _WIRE[key.name].read(wire, f"{name}: [wire]") for field, key in WIRE_LENGTHS.items() if key.name in wire
     }
+    own = own_dialects_of(content, file, name)
+    dialect = _dialect(content, own, file, name)
     settings = CheckSettings(
+        dialect=dialect,
         machine=_machine(content, file, name),
         start_mm=pair(content, "start_mm", name),
         may_stay_open=truth(content, "open", name),
@@ -156,7 +162,7 @@ def read_settings(content: Mapping[str, Any], file: Path, name: str) -> Settings
         fail_on=mildest_failing(content.get("fail_on", "incomplete"), f"{name}: fail_on"),
         marks=_marks(content, name),
         **lengths,
-        **{key.path: key.read(content, name) for key in READ_WITH},
+        **{key.path: key.read(content, name) for key in (UNIT, REGISTERS)},
         file=name,
     )
     return SettingsFile(
@@ -165,7 +171,15 @@ def read_settings(content: Mapping[str, Any], file: Path, name: str) -> Settings
         pattern_list(content.get("exclude", []), file.parent, f"{name}: exclude"),
         pattern_list(content.get("include", []), file.parent, f"{name}: include"),
         file.parent / text(content, "baseline", name) if "baseline" in content else None,
+        own,
     )
+
+
+def _dialect(content: Mapping[str, Any], own: Mapping[str, OwnDialect], file: Path, where: str) -> ChosenDialect:
+    """The dialect that a settings file chooses: one that it defines, one of a file, or a profile."""
+    if "dialect" not in content:
+        return ""
+    return chosen_dialect(text(content, "dialect", where), file.parent, own, where)
 
 
 def code_list(value: object, where: str) -> tuple[str, ...]:

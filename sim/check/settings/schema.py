@@ -2,9 +2,10 @@
 
 from typing import Any, Final
 
+from parser.program import own_dialect_schema
 from sim.check.settings.model import WIRE_LENGTHS
 from sim.check.settings.read import FAIL_ON
-from sim.setup.dialect import READ_WITH
+from sim.setup.dialect import REGISTERS, UNIT
 from sim.setup.file_schemas import DRAFT
 from sim.setup.toml.kinds import pair_schema
 from sim.setup.toml.reader import PLACE_MM
@@ -28,12 +29,17 @@ def settings_schema() -> dict[str, Any]:
         "exclude": ("patterns of files that are left out where a folder is looked through", _list_of(_TEXT)),
         "include": ("patterns of files that are programs whatever their names end in", _list_of(_TEXT)),
         "baseline": ("file of known findings and incomplete checks", _TEXT),
-        **{key.name: (f"{key.name} of ISO programs", key.schema) for key in READ_WITH},
+        "dialect": ("dialect of ISO programs, also one of those below, or its .toml file", _TEXT),
+        **{key.name: (f"{key.name} of ISO programs", key.schema) for key in (UNIT, REGISTERS)},
         "end_marks": ("more words for the end of a program", _MARKS),
         "pause_marks": ("more words for a pause in a program", _MARKS),
         "wire": (
             "wire that corners and offsets are held against",
             wire,
+        ),
+        "dialects": (
+            "dialects of a shop's own by their names, or their files",
+            {"type": "object", "additionalProperties": {"oneOf": [_TEXT, own_dialect_schema()]}},
         ),
         "per_file_ignores": (
             "codes that are not shown of the files of a pattern",

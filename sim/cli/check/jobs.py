@@ -2,11 +2,11 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 import click
 
-from parser.dialect.choices import merged
+from parser.dialect.choices import ChosenDialect, merged
 from parser.files.reading import read_stdin
 from parser.findings.codes import CODES
 from parser.findings.messages import Message
@@ -24,6 +24,7 @@ from sim.check.settings.read import (
 )
 from sim.check.settings.search import SettingsSearch
 from sim.cli.lengths import taken_lengths
+from sim.setup.dialect import chosen_dialect
 
 if TYPE_CHECKING:
     from sim.check.silence.baseline import Baseline
@@ -45,7 +46,7 @@ class CheckOptions(NamedTuple):
     machine: str | None
     lengths: Mapping[str, float]
     may_stay_open: bool
-    dialect: str | None
+    dialect: ChosenDialect | None
     unit: str | None
     offset: tuple["RegisterSet", ...]
     exclude: tuple[str, ...]
@@ -54,6 +55,15 @@ class CheckOptions(NamedTuple):
     no_config: bool
     baseline: Path | None
     write_baseline: Path | None
+
+
+NO_OPTIONS: Final = CheckOptions(
+    *(None, None, None, None, {}, False, None, None, (), (), (), None),
+    no_config=False,
+    baseline=None,
+    write_baseline=None,
+)
+"""None is given."""
 
 
 def check_options_of(values: dict[str, Any]) -> CheckOptions:
@@ -129,7 +139,7 @@ class _Making:
         """The job of one file; ``-`` is the standard input, which counts as a file of the working folder."""
         placed = self._search.placed(Path(name))
         near = self._near(placed)
-        settings = near.settings_of(placed).with_options(self._options)
+        settings = near.settings_of(placed).with_options({**self._options, **self._dialect(near)})
         _ = settings.demands  # settings that contradict each other are told before the first file
         baseline = self._baseline(near)
         of_file = baseline.of(placed) if baseline else {}
@@ -137,6 +147,13 @@ class _Making:
         if name == STDIN:
             return Job("<stdin>", read_stdin(), settings, known)
         return Job(name, Path(name), settings, known)
+
+    def _dialect(self, near: SettingsFile) -> dict[str, Any]:
+        """The dialect that the command line names, which settings may define."""
+        name = self._asked.dialect
+        if not isinstance(name, str) or not name:
+            return {}
+        return {"dialect": chosen_dialect(name, Path(), near.dialects, "--dialect")}
 
     def _near(self, placed: Path) -> SettingsFile:
         return self._only or self._search.near(placed.parent)

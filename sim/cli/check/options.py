@@ -9,7 +9,7 @@ import click
 from parser.findings.messages import Message
 from sim.check.settings.read import FAIL_ON
 from sim.cli.check.outputs import Output
-from sim.cli.dialect_options import READ_WITH, RegisterValue
+from sim.cli.dialect_options import UNIT, OwnOrNamed, RegisterValue
 from sim.cli.lengths import length_options
 from sim.cli.spoken.completing import offer_machines
 from sim.cli.spoken.values import FilePath
@@ -84,7 +84,8 @@ _DEMANDS = (
     click.option("--open", "may_stay_open", is_flag=True),
 )
 _ISO = (
-    *READ_WITH,
+    click.option("--dialect", type=OwnOrNamed(is_any=True)),
+    UNIT,
     click.option(
         "--offset",
         type=RegisterValue(),

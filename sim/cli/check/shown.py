@@ -99,6 +99,8 @@ def _source(settings: CheckSettings, field: str, words: Words) -> str:
 
 def _value(settings: CheckSettings, key: str) -> str:
     value = getattr(settings, _FIELDS[key])
+    if key == "dialect":
+        return _toml(str(value))
     if key == "machine":
         value = value and value.name
     elif key in ("end_marks", "pause_marks"):

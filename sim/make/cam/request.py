@@ -3,6 +3,7 @@
 The program that a scenario asks for, made of its drawing.
 """
 
+from parser.dialect.choices import OwnDialect
 from parser.findings.errors import SettingsError
 from parser.write.iso_choices import IsoChoices, iso_choices
 from sim.base.progress import Progress, silent
@@ -43,6 +44,8 @@ def _offset_um(making: Making, scenario: Scenario) -> float | None:
 
 
 def _iso(writing: Writing, scenario: Scenario) -> IsoChoices:
+    if isinstance(scenario.dialect, OwnDialect):
+        raise SettingsError("own-dialect-not-written", name=scenario.dialect.name)
     unit = scenario.unit or None
     return iso_choices(scenario.dialect or _USUAL_DIALECT, unit, writing.decimals)  # type: ignore[arg-type]  # checked
 

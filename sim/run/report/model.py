@@ -1,9 +1,11 @@
 """Model of ``report.json`` (docs/report.md)."""
 
+import re
 from typing import Annotated, Final, Literal, TypedDict
 
 from parser.documents.fields import (
     DIALECTS,
+    OWN_DIALECT,
     AssumptionEntry,
     AxisName,
     BlockCountsEntry,
@@ -67,7 +69,7 @@ class ProgramEntry(TypedDict):
     title: Text
     provenance: str
     encoding: Encoding
-    dialect: Annotated[str, one_of(*DIALECTS, "GE card")]
+    dialect: Annotated[str, matching(rf"^(?:GE card|{'|'.join(map(re.escape, DIALECTS))}|{OWN_DIALECT})$")]
     header: HeaderEntry | NoHeaderEntry
 
 

@@ -12,14 +12,16 @@ from typing import Any, Final, NamedTuple
 
 from markupsafe import Markup
 
+from parser.dialect.choices import OwnDialect
 from parser.findings.catalogue import Bilingual
-from parser.program import Program
+from parser.program import Program, own_dialect_text
 from parser.text.encoding import encode_text
 from sim.base.workers.makers import Maker, versions
 from sim.cut.pieces.pieces import Pieces
 from sim.run.dryrun import DryRun
 from sim.run.recording import NO_PIECES
 from sim.run.report.model import ReportDocument
+from sim.setup.dialect import OWN_SUFFIX
 from sim.setup.expectations import EXPECT, Expectation, wanted
 from sim.setup.key_words import title_of, value_word, words_of
 from sim.setup.machine.machine import Machine, machine_sections
@@ -118,7 +120,8 @@ def _settings(written: WrittenSection) -> tuple[Setting, ...]:
 
 
 def _setting(section: Section, key: Key, value: Any) -> Setting:
-    text = value_word(value) if isinstance(key.kind, OneOf) else _value(value)
+    is_word = isinstance(key.kind, OneOf) and value in key.kind.words  # a dialect of a shop's own is none
+    text = value_word(value) if is_word else _value(value)
     return Setting(words_of(section, key).name, key.name, text, key.kind.unit)
 
 
@@ -171,9 +174,16 @@ def reproduction(run: DryRun) -> Reproduction:
         files=(
             ("scenario.toml", toml_text(scenario_sections(scenario))),
             (MACHINE_FILE, toml_text(machine_sections(scenario.machine))),
+            *_own_dialect(scenario),
         ),
         versions=versions(),
     )
+
+
+def _own_dialect(scenario: Scenario) -> tuple[tuple[str, str], ...]:
+    """The file of the dialect of a shop's own; none of a profile."""
+    own = scenario.dialect
+    return ((f"{own}{OWN_SUFFIX}", own_dialect_text(own)),) if isinstance(own, OwnDialect) else ()
 
 
 def _engine(machine: Machine) -> str:

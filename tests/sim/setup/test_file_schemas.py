@@ -40,6 +40,7 @@ registers_mm = { D1 = 0.1 }
 end_marks = ["QQ"]
 pause_marks = ["P"]
 wire = { diameter_mm = 0.18, spark_gap_mm = 0.01 }
+dialects = { makino = { extends = "fanuc", g = { 145 = "switch" } }, ona = "ona.toml" }
 per_file_ignores = { "a*.3b" = ["3B3"] }
 """
 
