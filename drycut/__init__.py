@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from parser.program import Program, parse_program, read_program
     from parser.write.iso_choices import iso_choices
     from sim.check.file_check import check_program
+    from sim.check.own_checks import OwnCheck, OwnCode, OwnFinding, OwnTexts
     from sim.check.result import CheckResult
     from sim.check.settings import CheckSettings
     from sim.jobs.run_into import run_into
@@ -59,6 +60,10 @@ __all__ = [
     "NotMade",
     "Offset",
     "OffsetPass",
+    "OwnCheck",
+    "OwnCode",
+    "OwnFinding",
+    "OwnTexts",
     "PictureFiles",
     "Program",
     "Refused",
@@ -102,6 +107,10 @@ _HOMES = {
     "NotMade": "sim.make.cam.maker",
     "Offset": "sim.setup.part",
     "OffsetPass": "sim.setup.part",
+    "OwnCheck": "sim.check.own_checks",
+    "OwnCode": "sim.check.own_checks",
+    "OwnFinding": "sim.check.own_checks",
+    "OwnTexts": "sim.check.own_checks",
     "PictureFiles": "sim.show.pictures.files",
     "Program": "parser.program",
     "Refused": "sim.make.convert.convert",

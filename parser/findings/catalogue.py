@@ -119,6 +119,8 @@ def remark_template(name: str, language: Language) -> str:
 
 def term(key: str, language: Language = "en") -> str:
     """Text of a term, such as the name of a check; a key that is no term stands for itself, in backquotes."""
+    if key in _own_terms:
+        return _own_terms[key][language]
     return str(_read("terms")[language].get(key, f"`{key}`"))
 
 
@@ -181,7 +183,28 @@ class _Filler(string.Formatter):
         return self._joined(name, *filter(None, (low, high)))
 
 
+_own_pages: dict[str, Mapping[Language, CataloguePage]] = {}
+_own_terms: dict[str, Mapping[Language, str]] = {}
+
+
+def own_codes() -> tuple[str, ...]:
+    """Codes of checks of a shop's own, as far as such checks were found."""
+    return tuple(sorted(_own_pages))
+
+
+def add_pages(pages: Mapping[str, Mapping[Language, CataloguePage]]) -> None:
+    """Make the pages of codes of a shop's own known, in both languages."""
+    _own_pages.update(pages)
+
+
+def add_terms(terms: Mapping[str, Mapping[Language, str]]) -> None:
+    """Make names of checks of a shop's own known, in both languages."""
+    _own_terms.update(terms)
+
+
 def _file(code: str) -> dict[str, Any]:
+    if code in _own_pages:
+        return {language: of._asdict() for language, of in _own_pages[code].items()}
     if code not in CODES:
         raise KeyError(code)
     return _read(code)

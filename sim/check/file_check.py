@@ -19,6 +19,7 @@ from parser.text.encoding import decode_text
 from parser.text.lines import LineIndex
 from parser.text.source import Source
 from sim.check.engine import PARSER_CHECKS, PATH_CHECKS, Checked, run_checks
+from sim.check.own_checks import with_own_checks
 from sim.check.programmed import Programmed, programmed_of
 from sim.check.result import CheckResult, CheckState, Coverage
 from sim.check.settings import CheckSettings
@@ -84,7 +85,7 @@ def check_file(job: Job) -> CheckResult:
 
 def check_program(program: Program, settings: CheckSettings = _DEFAULTS) -> CheckResult:
     """Check a program that was read. SettingsError where wire and gap of the settings leave no kerf."""
-    checked = run_checks(program, settings.demands)
+    checked = with_own_checks(program, run_checks(program, settings.demands))
     return result_of(program, checked._replace(findings=_mendable(program, checked)), settings)
 
 

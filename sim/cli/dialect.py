@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 
 import click
 
+from parser.findings.codes import CODES, Check, Severity
 from parser.findings.messages import Message
 from sim.cli.dialect_options import OwnOrNamed
 from sim.cli.spoken import SpokenGroup, spoken
@@ -18,11 +19,8 @@ if TYPE_CHECKING:
     from sim.check.file_check import Job
     from sim.check.result import CheckResult
 
-_READING: Final = (
-    *("ISO100", "ISO101", "ISO102", "ISO103", "ISO105", "ISO110", "ISO113", "ISO130", "ISO203", "ISO204", "ISO205"),
-    *("ISO206", "ISO215", "ISO216", "ISO400", "ISO402", "ISO500", "ISO501", "ISO600"),
-)
-"""Findings that say that a text does not mean to the dialect what its author wrote."""
+_READING: Final = (Check.GRAMMAR, Check.ORDER, Check.BLOCKS)
+"""Checks whose errors and warnings say that a text does not mean to the dialect what its author wrote."""
 _MOST: Final = 20
 """Places that are shown of a file."""
 
@@ -88,7 +86,11 @@ class _Sample(NamedTuple):
 
 
 def _unread(job: "Job", result: "CheckResult") -> _Sample:
-    found = tuple(finding for finding in result.findings if finding.code in _READING or result.unreadable)
+    found = tuple(
+        finding
+        for finding in result.findings
+        if CODES[finding.code].check in _READING and finding.severity is not Severity.NOTE
+    )
     return _Sample(result, found, tuple(_word(result, finding) for finding in found))
 
 

@@ -32,6 +32,9 @@ def explain(name: str | None, sections: tuple[str, ...], *, search: str | None, 
     drycut explain 3b 2
     drycut explain --search "count axis"
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
+    from sim.check.own_checks import load_own_checks
+
+    load_own_checks()
     if search is not None and name is not None:
         raise click.UsageError(Message("options-exclude-each-other", options="--search and CODE"))
     if sections and as_json:

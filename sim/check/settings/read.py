@@ -187,10 +187,18 @@ def code_list(value: object, where: str) -> tuple[str, ...]:
     if not isinstance(value, list) or not all(isinstance(code, str) for code in value):
         raise SettingsError("no-list-of-codes", where=where, found=value)
     codes = tuple(code.strip().upper() for code in value if code.strip())
+    if not all(map(_is_known, codes)):
+        from sim.check.own_checks import load_own_checks  # noqa: PLC0415 - most codes are those of drycut
+
+        load_own_checks()
     for code in codes:
-        if not any(known.startswith(code) for known in CODES):
+        if not _is_known(code):
             raise SettingsError("no-such-code", where=where, code=code, codes=_first_last())
     return codes
+
+
+def _is_known(code: str) -> bool:
+    return any(known.startswith(code) for known in CODES)
 
 
 def mildest_failing(value: object, where: str) -> FailOn:

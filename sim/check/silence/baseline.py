@@ -7,14 +7,16 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from parser.files.reading import read_text
-from parser.findings.codes import CODES, Check
+from parser.findings.codes import CODES
 from parser.findings.errors import SettingsError
+from sim.check.own_checks import load_own_checks
 from sim.check.result import CheckResult, fingerprints, gap_marks
 
 SCHEMA = "drycut.baseline/2"
 _READ = ("drycut.baseline/1", SCHEMA)
 """Schemas that are read; the first has findings alone."""
-_KNOWN = {*CODES, *Check}
+_CHECK = "check-"
+"""Begins the name of a check."""
 _Known = Mapping[str, str]
 """Codes of findings, and names of checks that did not come to their end, by fingerprints."""
 
@@ -69,6 +71,7 @@ def read_baseline(path: Path) -> Baseline:
 
     Raises FileUnreadableError where it cannot be read, SettingsError where it is no baseline.
     """
+    load_own_checks()  # it may hold codes of theirs
     try:
         content = json.loads(read_text(path))
     except (ValueError, RecursionError) as error:  # no JSON, no UTF-8, or nested without end
@@ -84,4 +87,4 @@ def read_baseline(path: Path) -> Baseline:
 
 
 def _are_codes(values: Iterable[object]) -> bool:
-    return all(isinstance(code, str) and code in _KNOWN for code in values)
+    return all(isinstance(code, str) and (code in CODES or code.startswith(_CHECK)) for code in values)

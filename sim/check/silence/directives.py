@@ -31,7 +31,6 @@ _KIND = re.compile(r"(ignore-file|ignore)(?![\w-])[ \t]*:?[ \t]*", re.IGNORECASE
 _COMMA = rf"[ \t]*+[,{unicodedata.lookup('IDEOGRAPHIC COMMA')}][ \t]*+"
 _CODES = re.compile(rf"[A-Z0-9]++(?:{_COMMA}[A-Z0-9]++|[ \t]++\d[A-Z][A-Z0-9]*+)*+", re.IGNORECASE | re.ASCII)
 _CODE = re.compile(r"[A-Z0-9]+", re.IGNORECASE | re.ASCII)
-_BEGINNINGS = frozenset(code[:length] for code in CODES for length in range(2, len(code) + 1))
 _LONGEST_SHOWN = 40
 
 
@@ -119,7 +118,7 @@ def _read(program: Program, span: Span, line: int) -> Iterator[Directive | Findi
         yield _unreadable(program, span, "directive-without-code" if kind else "directive-unknown")
         return
     for code in _CODE.finditer(text, *codes.span()):
-        if code[0].upper() not in _BEGINNINGS:
+        if len(code[0]) < 2 or not any(known.startswith(code[0].upper()) for known in CODES):
             yield _unreadable(program, code.span(), "directive-unknown-code")
         else:
             yield Directive(code[0].upper(), _WHOLE_FILE if kind[1].lower() == "ignore-file" else line, code.span())

@@ -58,10 +58,12 @@ def check(  # noqa: PLR0913 - click hands over each option by its name
     drycut check part.3b --fix
     drycut check die.iso --dialect robofil --offset D0=0.11mm
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
+    from sim.check.own_checks import load_own_checks
     from sim.cli.check.jobs import check_options_of, choice_of
     from sim.cli.check.outputs import outputs_of
     from sim.show.findings.options import Options
 
+    load_own_checks()  # before any code is read, or any result of another process is written
     _refuse_contradictions(
         files,
         formats,

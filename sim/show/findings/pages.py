@@ -1,6 +1,6 @@
 """Pages of the catalogue as Markdown, for ``drycut explain`` and for the findings documents."""
 
-from parser.findings.catalogue import Language, example, page
+from parser.findings.catalogue import Language, example, own_codes, page
 from parser.findings.codes import CODES
 from sim.show.terminal.documents import documents, title
 from sim.show.texts import Words
@@ -38,11 +38,14 @@ def list_text(language: Language) -> str:
 
 def layers(language: Language) -> tuple[tuple[str, tuple[str, ...]], ...]:
     """Titles of the layers, each with its codes."""
-    names = sorted({code[_OF_LAYER] for code in CODES})
-    return tuple(
-        (Words(language)(f"findings.layer-{name}"), tuple(code for code in sorted(CODES) if code[_OF_LAYER] == name))
+    own = own_codes()
+    ours = [code for code in sorted(CODES) if code not in own]
+    names = sorted({code[_OF_LAYER] for code in ours})
+    of_drycut = tuple(
+        (Words(language)(f"findings.layer-{name}"), tuple(code for code in ours if code[_OF_LAYER] == name))
         for name in names
     )
+    return (*of_drycut, *([(Words(language)("findings.layer-own"), own)] if own else []))
 
 
 def severity_word(code: str, language: Language) -> str:

@@ -7,13 +7,13 @@ results: findings with their places, fingerprints and mends.
 import json
 import os
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import PurePath
 from typing import Any
 from urllib.parse import quote
 
 from parser import __version__
-from parser.findings.catalogue import Language, page, term
+from parser.findings.catalogue import Language, own_codes, page, term
 from parser.findings.codes import CODES, Check
 from parser.findings.findings import Edit, Finding
 from sim.check.result import CheckResult, fingerprints
@@ -23,10 +23,6 @@ from sim.show.findings.wording import reason, silenced, with_hint
 from sim.show.texts import Words
 
 _SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
-
-_RULES = tuple(sorted(CODES))
-"""Codes in the order of the rules: a result names its rule by the index too."""
-_RULE_INDEX = {code: index for index, code in enumerate(_RULES)}
 
 _HIDDEN = "findings-not-shown"
 """Notification that findings are silenced; the others have the names of the checks."""
@@ -40,9 +36,10 @@ _CHARSETS = {
 
 def render(results: Iterable[CheckResult], options: Options) -> Iterator[str]:
     """One log of one run; files and what went wrong in the checks themselves stand behind the results."""
-    run = _Run(options.language)
+    rules = tuple(sorted(CODES))
+    run = _Run(options.language, rules)
     head = {
-        "tool": {"driver": _driver(options.language)},
+        "tool": {"driver": _driver(options.language, rules)},
         "language": options.language,
         "columnKind": "unicodeCodePoints",
     }
@@ -52,9 +49,13 @@ def render(results: Iterable[CheckResult], options: Options) -> Iterator[str]:
 
 
 class _Run:
-    """What is gathered while the results go by: their files, and notices of what they leave out."""
+    """What is gathered while the results go by: their files, and notices of what they leave out.
 
-    def __init__(self, language: Language) -> None:
+    `rules` are the codes in their order: a result names its rule by the index too.
+    """
+
+    def __init__(self, language: Language, rules: Sequence[str]) -> None:
+        self._rule_index = {code: index for index, code in enumerate(rules)}
         self._targets: list[dict[str, Any]] = []
         self._settings: dict[str, dict[str, Any]] = {}
         self._language = language
@@ -69,7 +70,7 @@ class _Run:
                 self._settings[result.settings_file] = _settings(result.settings_file)
             self._notices += _notices(result, index, self._language)
             self._successful &= not result.unreadable
-            yield from _results(result, index, self._language)
+            yield from _results(result, index, self._language, self._rule_index)
 
     @property
     def artifacts(self) -> list[dict[str, Any]]:
@@ -110,19 +111,25 @@ def _settings(name: str) -> dict[str, Any]:
     return {"location": _location(name), "roles": ["userSpecifiedConfiguration"]}
 
 
-def _driver(language: Language) -> dict[str, Any]:
+def _driver(language: Language, rules: Sequence[str]) -> dict[str, Any]:
     """The tool component (§3.19)."""
-    notices = {name: term(name, language) for name in Check} | {_HIDDEN: Words(language)("findings.total-silenced")}
+    notices = {name: term(name, language) for name in _checks()} | {_HIDDEN: Words(language)("findings.total-silenced")}
     return {
         "name": "drycut",
         "version": __version__,
         "semanticVersion": __version__,
         "language": language,
-        "rules": [_rule(code, language) for code in _RULES],
+        "rules": [_rule(code, language) for code in rules],
         "notifications": [
             {"id": id_, "shortDescription": {"text": _plain_message(text)}} for id_, text in notices.items()
         ],
     }
+
+
+def _checks() -> tuple[str, ...]:
+    """Names of all checks, those of a shop's own last."""
+    own = (CODES[code].check for code in own_codes())
+    return tuple(dict.fromkeys(map(str, filter(None, (*Check, *own)))))
 
 
 def _plain_message(text: str) -> str:
@@ -155,14 +162,16 @@ def _identifier(code: str) -> str:
     return "".join(part[:1].upper() + part[1:] for part in re.split(r"[^A-Za-z0-9]+", family + title))
 
 
-def _results(result: CheckResult, index: int, language: Language) -> Iterator[dict[str, Any]]:
+def _results(
+    result: CheckResult, index: int, language: Language, rule_index: Mapping[str, int]
+) -> Iterator[dict[str, Any]]:
     """The results (§3.27) of one file, which is the artifact of this index."""
     where = _location(result.name, index)
     for finding, known in zip(result.findings, fingerprints(result), strict=True):
         message = _plain_message(with_hint(finding, language))
         entry = {
             "ruleId": finding.code,
-            "ruleIndex": _RULE_INDEX[finding.code],
+            "ruleIndex": rule_index[finding.code],
             "level": finding.severity.value,
             "message": {"text": message},
             "locations": [{"physicalLocation": {"artifactLocation": where, **_region(result, finding)}}],

@@ -471,7 +471,7 @@ def test_concise_is_a_line_a_finding() -> None:
 
 def test_concise_and_text_are_found_by_one_pattern() -> None:
     pattern = re.compile(
-        r"^(.+?):(?:(\d+):)?(?:(\d+):)? (error|warning|note)\[((?:3B|ISO)\d{3})\]: (.+)$", re.MULTILINE
+        r"^(.+?):(?:(\d+):)?(?:(\d+):)? (error|warning|note)\[((?:3B|[A-Z]{2,8})\d{3})\]: (.+)$", re.MULTILINE
     )
     found = [pattern.findall(written(name, kind())) for name in ("text", "concise")]
     assert [[match[:5] for match in matches] for matches in found] == [
