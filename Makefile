@@ -83,11 +83,14 @@ pages: $(READY)
 	PYTHONPATH=. $(BIN)/python tests/tools/schema_pages.py
 	PYTHONPATH=. $(BIN)/python tests/tools/script_types.py
 
-# Renew the lock for every Python the project supports.
+# Renew the locks for every Python the project supports: of all, and of the core alone, which the action installs.
 lock: $(READY)
 	$(BIN)/pip install --quiet uv
 	$(BIN)/uv pip compile --quiet --universal --python-version 3.11 --extra test --extra docs \
-		--upgrade --no-header --output-file requirements-lock.txt pyproject.toml
+		--upgrade --generate-hashes --no-header --output-file requirements-lock.txt pyproject.toml
+	cp requirements-lock.txt requirements-core-lock.txt  # the same versions
+	$(BIN)/uv pip compile --quiet --universal --python-version 3.11 \
+		--generate-hashes --no-header --output-file requirements-core-lock.txt pyproject.toml
 
 clean:
 	rm -rf .venv node_modules out dist

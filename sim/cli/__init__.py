@@ -12,6 +12,7 @@ from controller.compiled.compiling import on_compiling
 from parser import __version__
 from parser.findings.errors import DrycutError
 from parser.findings.messages import Message, system_message
+from sim.cli.extras import missing
 from sim.cli.spoken import SpokenGroup, complaint, localised, spoken, words
 from sim.show.terminal.printer import say, write
 from sim.show.terminal.streams import OutputError, prepare_streams
@@ -116,8 +117,9 @@ def _run() -> int:
         return 2
     except (click.ClickException, DrycutError, OSError) as error:
         return _complain(_message(error))
-    except Exception:
-        return _tell_fault(traceback.format_exc())
+    except Exception as error:
+        extra = missing(error)
+        return _complain(localised(extra)) if extra else _tell_fault(traceback.format_exc())
 
 
 def _message(error: click.ClickException | DrycutError | OSError) -> str:

@@ -95,9 +95,25 @@ def test_every_dependency_is_locked() -> None:
         *project["dependencies"],
         *(name for extra in project["optional-dependencies"].values() for name in extra),
     ]
-    locked = {line.split("==")[0] for line in (ROOT / "requirements-lock.txt").read_text("utf-8").splitlines()}
+    locked = {name for name, _ in versions("requirements-lock.txt")}
     for requirement in wanted:
-        assert requirement.split(">=")[0] in locked, requirement
+        name = requirement.split(">=")[0]
+        assert name in locked or re.fullmatch(r"drycut\[[a-z,]+\]", name), requirement
+
+
+def test_the_core_is_locked_to_the_same_versions_and_each_package_by_its_hashes() -> None:
+    core, every = versions("requirements-core-lock.txt"), versions("requirements-lock.txt")
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+    assert {requirement.split(">=")[0] for requirement in project["dependencies"]} <= {name for name, _ in core}
+    assert core <= every
+    for name in ("requirements-core-lock.txt", "requirements-lock.txt"):
+        entries = re.split(r"^(?=[a-z])", (ROOT / name).read_text("utf-8"), flags=re.MULTILINE)[1:]
+        assert [entry.split()[0] for entry in entries if "--hash=sha256:" not in entry] == []
+
+
+def versions(lock: str) -> set[tuple[str, str]]:
+    """Packages of a lock with their versions."""
+    return set(re.findall(r"^([A-Za-z0-9_.-]+)==([^ ]+)", (ROOT / lock).read_text("utf-8"), re.MULTILINE))
 
 
 def test_what_checks_the_scripts_of_pages_is_pinned_and_locked_from_no_place() -> None:
