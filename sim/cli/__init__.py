@@ -51,13 +51,23 @@ class _LazyGroup(SpokenGroup):
         return command
 
 
+def _show_version(ctx: click.Context, _: click.Parameter, is_wanted: bool) -> None:
+    """Print the version, and a digest of the sources: between two releases that alone tells them apart."""
+    if not is_wanted or ctx.resilient_parsing:
+        return
+    from sim.base.workers.makers import sources
+
+    write(f"drycut, version {__version__}, sources {sources()}\n")
+    ctx.exit()
+
+
 @click.group(
     name="drycut",
     cls=_LazyGroup,
     invoke_without_command=True,
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
 )
-@click.version_option(__version__, prog_name="drycut")
+@click.option("--version", is_flag=True, is_eager=True, expose_value=False, callback=_show_version)
 @click.pass_context
 def cli(ctx: click.Context) -> None:
     """Dry-run wire-cut EDM programs: what the controller and the table will really do, before a wire is threaded."""

@@ -33,12 +33,21 @@ Maker = tuple[tuple[str, str], ...]
 
 @cache
 def versions() -> Maker:
-    """Versions of drycut, which is first, of Python and of the packages that it uses."""
+    """Versions of drycut, which is first, of Python and of those packages that it uses and that are installed."""
+    installed = ((name, _version(name)) for name in _PACKAGES)
     return (
         ("drycut", __version__),
         ("Python", platform.python_version()),
-        *((name, metadata.version(name)) for name in _PACKAGES),
+        *((name, version) for name, version in installed if version),
     )
+
+
+def _version(package: str) -> str:
+    """Version of a package; empty where it is not installed, as extras may be left out."""
+    try:
+        return metadata.version(package)
+    except metadata.PackageNotFoundError:
+        return ""
 
 
 def made_by() -> Maker:

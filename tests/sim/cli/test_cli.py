@@ -15,6 +15,7 @@ from command import run_command, run_inside, without_progress
 from places import ROOT, SCENARIOS
 
 from drycut import __version__
+from sim.base.workers.makers import sources
 from sim.cli import cli
 
 SOUND = "B9900B0B9900GXL1 B9900B0B39600GYNR1 B9900B0B9900GXL3 DD"
@@ -235,7 +236,7 @@ def test_long_work_shows_its_progress_on_stderr(short: Path, monkeypatch: pytest
 
 
 def test_version_and_help() -> None:
-    assert drycut("--version").stdout == f"drycut, version {__version__}\n"
+    assert drycut("--version").stdout == f"drycut, version {__version__}, sources {sources()}\n"
     assert "run      Dry-run a 3B or ISO program" in drycut("--help").stdout
     assert "drycut run part.3b -o out/\n" in drycut("run", "--help").stdout
     assert drycut().returncode == 2

@@ -19,6 +19,13 @@ class Lacking:
         if name.partition(".")[0] in {lacking!r}:
             raise ModuleNotFoundError(f"No module named {{name!r}}", name=name)
 sys.meta_path.insert(0, Lacking())
+from importlib import metadata
+version = metadata.version
+def of_installed(name):
+    if name in {lacking!r}:
+        raise metadata.PackageNotFoundError(name)
+    return version(name)
+metadata.version = of_installed
 sys.argv = ["drycut", *{arguments!r}]
 from drycut.__main__ import main
 main()
@@ -26,8 +33,10 @@ main()
 ISO = "G92 X0 Y0\nG90 G41 D1 G01 X0 Y5000\nX9000\nY14000\nX0\nY5000\nG40 X0 Y0\nM02\n"
 
 
-def drycut(folder: Path, *arguments: str) -> tuple[int, str, str]:
-    code = BLOCKED.format(lacking=set(EXTRA_OF), arguments=arguments)
+def drycut(folder: Path, *arguments: str, extra: str = "") -> tuple[int, str, str]:
+    """The command with no extra installed but one; the metadata of the others are not there either."""
+    lacking = {package for package, of in EXTRA_OF.items() if of != extra}
+    code = BLOCKED.format(lacking=lacking, arguments=arguments)
     environment = {"PYTHONPATH": str(ROOT), "PYTHONUTF8": "1", "LC_ALL": "C.UTF-8", "PATH": ""}
     done = subprocess.run([sys.executable, "-c", code], cwd=folder, capture_output=True, env=environment, check=False)
     return done.returncode, done.stdout.decode(), done.stderr.decode()
@@ -83,6 +92,12 @@ def test_what_is_missing_is_said_with_the_command_that_brings_it(
     assert err.startswith("drycut: error: this needs ")
     assert f"pip install 'drycut[{extra}]'" in err
     assert not list(shop.glob("x*"))
+
+
+@pytest.mark.parametrize("arguments", [("run", "part.3b", "-o", "out"), ("draw", "part.3b", "-o", "x.svg")])
+def test_a_run_needs_its_own_extra_alone(shop: Path, arguments: tuple[str, ...]) -> None:
+    code, _, err = drycut(shop, *arguments, extra="run")
+    assert (code, err.count("error:")) == (0, 0), err
 
 
 def test_every_package_that_is_imported_is_of_the_core_or_of_the_extra_that_is_named() -> None:
