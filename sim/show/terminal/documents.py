@@ -11,7 +11,7 @@ from typing import Final
 from parser.findings.catalogue import Language
 
 _PACKAGE: Final = Path(__file__).parents[2]
-_NOT_FOR_USERS: Final = {"architecture", "code-flow", "findings"}
+_NOT_FOR_USERS: Final = {"architecture", "code-flow", "findings", "record"}
 """Documents of those who change drycut, and those made of the pages of all codes; a wheel has none of them."""
 _CHINESE = ".zh"
 _TWIN = re.compile(r"^\[[^\[\]]+\]\([\w.-]+\.md\)\n\n", re.MULTILINE)

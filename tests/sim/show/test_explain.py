@@ -101,7 +101,7 @@ def test_a_wheel_brings_the_documents_of_users_and_the_examples() -> None:
     shipped = build["targets"]["wheel"]["force-include"]
     assert shipped == {f"docs/{name}": f"sim/docs/{name}" for name in files()} | {"scenarios": "sim/scenarios"}
     assert {"3b", "check", "scenarios"} < set(documents())
-    assert not {"architecture", "code-flow", "findings"} & set(documents())
+    assert not {"architecture", "code-flow", "findings", "record"} & set(documents())
 
 
 def test_sections_of_a_document_are_shown_by_their_number() -> None:
