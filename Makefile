@@ -6,7 +6,7 @@ READY := .venv/.ready
 # Tests start hundreds of processes: each would compile again all that it imports, and each core all tests.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: demo test suite deep lint style types imports scripts browser bench steps mutate survivors fuzz golden pages lock clean
+.PHONY: demo test suite deep lint style types imports scripts browser bench steps mutate survivors fuzz golden pages lock release clean
 
 demo: $(READY)
 	$(BIN)/drycut run scenarios/keyhole -o out/keyhole
@@ -82,15 +82,34 @@ pages: $(READY)
 	$(BIN)/python tests/tools/door_page.py
 	PYTHONPATH=. $(BIN)/python tests/tools/schema_pages.py
 	PYTHONPATH=. $(BIN)/python tests/tools/script_types.py
+	$(BIN)/python tests/tools/licence_page.py
 
-# Renew the locks for every Python the project supports: of all, and of the core alone, which the action installs.
+# Renew the locks for every Python the project supports: of all, of all extras without the tests, of the core.
 lock: $(READY)
 	$(BIN)/pip install --quiet uv
 	$(BIN)/uv pip compile --quiet --universal --python-version 3.11 --extra test --extra docs \
 		--upgrade --generate-hashes --no-header --output-file requirements-lock.txt pyproject.toml
-	cp requirements-lock.txt requirements-core-lock.txt  # the same versions
+	for of in core all; do cp requirements-lock.txt requirements-$$of-lock.txt || exit; done  # the same versions
+	$(BIN)/uv pip compile --quiet --universal --python-version 3.11 --extra all \
+		--generate-hashes --no-header --output-file requirements-all-lock.txt pyproject.toml
 	$(BIN)/uv pip compile --quiet --universal --python-version 3.11 \
 		--generate-hashes --no-header --output-file requirements-core-lock.txt pyproject.toml
+
+# What a release consists of, in `dist/`: the packages, locks of the core and of all extras by hashes, and an SBOM of what
+# they install, with licences.
+release: $(READY)
+	rm -rf dist
+	$(BIN)/python -m hatchling build
+	$(PYTHON) -m venv dist/.tools
+	dist/.tools/bin/pip install --quiet --disable-pip-version-check cyclonedx-bom
+	cp requirements-core-lock.txt requirements-all-lock.txt dist
+	$(PYTHON) -m venv dist/.env
+	dist/.env/bin/pip install --quiet --disable-pip-version-check --require-hashes --requirement requirements-all-lock.txt
+	dist/.env/bin/pip install --quiet --disable-pip-version-check --no-deps dist/*.whl
+	dist/.env/bin/pip uninstall --quiet --yes pip setuptools
+	dist/.tools/bin/cyclonedx-py environment --output-reproducible --output-file dist/sbom.cdx.json dist/.env/bin/python
+	rm -rf dist/.tools dist/.env
+	@ls -l dist
 
 clean:
 	rm -rf .venv node_modules out dist

@@ -10,13 +10,19 @@ import tomllib
 import zipfile
 from importlib import metadata
 from pathlib import Path
+from typing import Any
 
 import pytest
+from licence_page import closure
 from places import ROOT
 
 from drycut import __version__
 from parser.findings.codes import CODES
 from sim.show.terminal.documents import files
+
+LOCKS = ("requirements-core-lock.txt", "requirements-all-lock.txt", "requirements-lock.txt")
+OWN = {"test", "docs"}
+"""Extras of those who change drycut."""
 
 
 def test_no_other_distribution_owns_our_names() -> None:
@@ -103,12 +109,47 @@ def test_every_dependency_is_locked() -> None:
 
 def test_the_core_is_locked_to_the_same_versions_and_each_package_by_its_hashes() -> None:
     core, every = versions("requirements-core-lock.txt"), versions("requirements-lock.txt")
-    project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
-    assert {requirement.split(">=")[0] for requirement in project["dependencies"]} <= {name for name, _ in core}
+    assert {requirement.split(">=")[0] for requirement in project()["dependencies"]} <= {name for name, _ in core}
     assert core <= every
-    for name in ("requirements-core-lock.txt", "requirements-lock.txt"):
+    assert core <= versions("requirements-all-lock.txt") <= every
+    for name in LOCKS:
         entries = re.split(r"^(?=[a-z])", (ROOT / name).read_text("utf-8"), flags=re.MULTILINE)[1:]
         assert [entry.split()[0] for entry in entries if "--hash=sha256:" not in entry] == []
+
+
+def test_the_licence_of_every_package_is_listed() -> None:
+    rows = dict(
+        re.findall(r"^\| ([a-z0-9-]+) \| ([^|]*?) \|", (ROOT / "docs" / "licences.md").read_text("utf-8"), re.MULTILINE)
+    )
+    brought = {
+        name for extra in ("core", "run", "drawing", "open", "lsp", "film", "cluster") for name in closure(extra)
+    }
+    assert brought - set(rows) == set()
+    assert [name for name, licence in rows.items() if not licence] == []
+    locked = {re.sub(r"[-_.]+", "-", name).lower() for name, _ in versions("requirements-lock.txt")}
+    assert set(rows) - {"package"} - locked == set()
+
+
+def test_the_parts_of_the_image_are_there_and_it_runs_as_no_root() -> None:
+    lines = (ROOT / "Dockerfile").read_text("utf-8").replace("\\\n", " ").splitlines()
+    words = [line.split() for line in lines if line and not line.startswith("#")]
+    images = [each[1] for each in words if each[0] == "FROM"]
+    assert len(set(images)) == 1, "machine code and packages are of one Python"
+    python = tuple(map(int, re.findall(r"\d+", images[0])))
+    assert f"Programming Language :: Python :: {python[0]}.{python[1]}" in project()["classifiers"]
+    assert [each[1] for each in words if each[0] == "USER"] == ["drycut"]
+    assert words[-1] == ["ENTRYPOINT", '["drycut"]']
+    run = next(line for line in lines if line.startswith("RUN python"))
+    for file in re.findall(r"/source/(\S+)", run):
+        assert (ROOT / file).exists()
+        assert file not in (ROOT / ".dockerignore").read_text("utf-8").split()
+    assert "-m sim.cli.compile" in run
+    cache = set(re.findall(r"NUMBA_CACHE_DIR=(\S+)", "\n".join(lines)))
+    assert len(cache) == 1, "loops are found where they were stored"
+
+
+def project() -> Any:
+    return tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
 
 
 def versions(lock: str) -> set[tuple[str, str]]:
