@@ -105,9 +105,9 @@ release: $(READY)
 	cp requirements-core-lock.txt requirements-all-lock.txt dist
 	$(PYTHON) -m venv dist/.env
 	dist/.env/bin/pip install --quiet --disable-pip-version-check --require-hashes --requirement requirements-all-lock.txt
-	dist/.env/bin/pip install --quiet --disable-pip-version-check --no-deps dist/*.whl
+	dist/.env/bin/pip install --quiet --disable-pip-version-check --no-deps --no-index --find-links dist drycut
 	dist/.env/bin/pip uninstall --quiet --yes pip setuptools
-	dist/.tools/bin/cyclonedx-py environment --output-reproducible --output-file dist/sbom.cdx.json dist/.env/bin/python
+	dist/.tools/bin/cyclonedx-py environment --pyproject pyproject.toml --output-reproducible --output-file dist/sbom.cdx.json dist/.env/bin/python
 	rm -rf dist/.tools dist/.env
 	@ls -l dist
 

@@ -22,7 +22,9 @@ from sim.check.result import CheckState
 
 GROUP: Final = "drycut.checks"
 """Name of the group of entry points."""
-_CODE: Final = re.compile(r"(?!3B|ISO|PMC|GEC)[A-Z]{2,8}[1-9]\d\d", re.ASCII)
+_CODE: Final = re.compile(r"[A-Z]{2,8}[1-9]\d\d", re.ASCII)
+_OURS: Final = frozenset(code[:-3] for code in CODES)
+"""Beginnings of the codes of drycut."""
 _NAME: Final = re.compile(r"[a-z]+(?:-[a-z]+)*", re.ASCII)
 _RAISED: Final = "reason-raised"
 _MOST: Final = 10_000
@@ -245,7 +247,7 @@ def _wrong(name: str, check: object) -> str:
     if not _NAME.fullmatch(name):
         return "its name is not of small letters and -"
     for code, of in check.codes.items():
-        if not _CODE.fullmatch(code) or code in CODES:
+        if not _CODE.fullmatch(code) or code in CODES or code[:-3] in _OURS:
             return f"{code!r:.40} is no code of one's own, or another check has it"
         if of.severity not in tuple(Severity):
             return f"{code}: {of.severity!r:.40} is no severity"

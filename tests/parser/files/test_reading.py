@@ -21,6 +21,7 @@ SHIPPED = {
     *("sim/show/html/environment.py", "sim/show/findings/catalogue_document.py", "sim/show/terminal/documents.py"),
     *("parser/iso/profiles/profile.py", "parser/write/iso_choices.py", "parser/drawing/dxf/linetypes.py"),
     *("controller/compiled/loops.py", "sim/base/workers/makers.py"),  # our own modules
+    "sim/check/own_checks.py",  # which distributions offer checks
     "sim/serve/page/shortcut.py",  # its icon
     *("controller/card/abi/c_text.py", "sim/clients/library/build.py"),  # C that libraries are made of
 }
