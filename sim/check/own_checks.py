@@ -12,6 +12,8 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any, Final, Literal, NamedTuple
 
+import numpy as np
+
 from parser.findings.catalogue import LANGUAGES, CataloguePage, add_pages, add_terms, filled
 from parser.findings.codes import CODES, FindingCode, Severity, add_codes
 from parser.findings.findings import Finding, Value, file_order
@@ -152,7 +154,7 @@ def _found(offered: _Offered, program: Program) -> tuple[list[Finding], str]:
         return [], offered.wrong
     try:
         return [_finding(each, offered.check, program) for each in _bounded(offered.check.run(program))], ""
-    except Exception as error:
+    except (Exception, SystemExit) as error:
         return [], _error_text(error)
 
 
@@ -183,7 +185,10 @@ def _span(found: OwnFinding, program: Program) -> Span | None:
     """The characters of its block, or of its line; None of a finding of the whole program."""
     if found.block:
         source = program.toolpath.source
-        first, past = source.span[source.block.tolist().index(found.block)].tolist()
+        row = int(np.searchsorted(source.block, found.block))
+        if row == len(source.block) or source.block[row] != found.block:
+            raise ValueError(f"there is no block {found.block}")
+        first, past = source.span[row].tolist()
         return first, past
     return program.lines.bounds(found.line) if found.line else None
 
@@ -197,20 +202,34 @@ def _value(value: object) -> Value:
 
 @cache
 def _offered() -> tuple[_Offered, ...]:
-    """All checks that are offered, by their names; their codes and texts are known from then on."""
-    if not any(map(_is_offering, sys.path)):
-        return ()
-    from importlib.metadata import entry_points  # noqa: PLC0415 - it takes 35 ms, and most have no such checks
+    """All checks that are offered, by their names; their codes and texts are known from then on.
 
-    by_name = {entry.name: entry for entry in sorted(entry_points(group=GROUP))}
+    The working folder, which `python -m` puts into the path, offers none: what stands there may be anybody's.
+    """
+    here = _working_folder()
+    folders = [folder for folder in sys.path if folder and Path(folder).resolve() != here and _is_offering(folder)]
+    if not folders:
+        return ()
+    from importlib.metadata import distributions  # noqa: PLC0415 - it takes 35 ms, and most have no such checks
+
+    entries = [entry for each in distributions(path=folders) for entry in each.entry_points.select(group=GROUP)]
+    by_name = {entry.name: entry for entry in sorted(entries, reverse=True)}
     return tuple(_read(name, entry.value) for name, entry in sorted(by_name.items()))
+
+
+def _working_folder() -> Path | None:
+    """The working folder without links; None where it is gone."""
+    try:
+        return Path.cwd().resolve()
+    except OSError:
+        return None
 
 
 def _is_offering(folder: str) -> bool:
     """Whether a distribution in a folder of the path offers checks."""
     mark = f"[{GROUP}]".encode()
     try:
-        infos = [each for each in Path(folder or ".").iterdir() if each.suffix in (".dist-info", ".egg-info")]
+        infos = [each for each in Path(folder).iterdir() if each.suffix in (".dist-info", ".egg-info")]
     except OSError:
         return False
     return any(mark in _content(each / "entry_points.txt") for each in infos)
@@ -234,7 +253,7 @@ def _read(name: str, value: str) -> _Offered:
         if not wrong:
             _register(name, check)
             return _Offered(name, check)
-    except Exception as error:
+    except (Exception, SystemExit) as error:
         wrong = _error_text(error)
     add_terms({_check_name(name): dict.fromkeys(LANGUAGES, name)})
     return _Offered(name, None, f"{value}: {wrong}")
@@ -269,5 +288,5 @@ def _check_name(name: str) -> str:
     return "check-" + ("-".join(re.findall(r"[a-z]+", name.lower())) or "own")
 
 
-def _error_text(error: Exception) -> str:
+def _error_text(error: BaseException) -> str:
     return f"{type(error).__name__}: {error}"[:200]

@@ -14,6 +14,7 @@ PAGE = (ROOT / "docs" / "python.md").read_text("utf-8")
 LONG = "B9900B0B9900GXL1\nB60000B0B60000GXL1\nB60000B0B60000GXL3\nB9900B0B9900GXL3\nDD\n"
 SHORT = LONG.replace("60000", "6000")
 BROKEN = """
+import sys
 from drycut import OwnCheck, OwnCode, OwnFinding, OwnTexts
 
 def made(run, code="SHOP201"):
@@ -30,6 +31,7 @@ no_finding = made(lambda program: [3])
 endless = made(lambda program: iter(lambda: OwnFinding("SHOP201", values={"far": 1.0}), None))
 our_code = made(no_table, "ISO203")
 small_code = made(no_table, "shop1")
+ends = made(lambda program: sys.exit(3))
 nothing = 3
 """
 
@@ -95,7 +97,8 @@ def test_every_format_has_its_findings(shop: Path, form: str) -> None:
         ("raises", "KeyError: 'no table'"),
         ("other_code", "is no finding of its codes"),
         ("lacks_value", "KeyError: 'far'"),
-        ("no_block", "99 is not in list"),
+        ("no_block", "there is no block 99"),
+        ("ends", "SystemExit: 3"),
         ("no_finding", "3 is no finding of its codes"),
         ("endless", "more than 10000 findings"),
         ("our_code", "'ISO203' is no code of one's own"),
@@ -110,3 +113,9 @@ def test_one_that_cannot_be_run_is_named_and_incomplete(shop: Path, name: str, s
     assert (code, err) == (1, "")
     assert "short.3b: incomplete" in out
     assert said in " ".join(out.split())
+
+
+def test_the_working_folder_offers_none(shop: Path) -> None:
+    (shop / "site" / "part.3b").write_text(LONG, "ascii")
+    done = run_command("check", "part.3b", "--fail-on", "warning", cwd=shop / "site", PYTHONPATH=str(ROOT))
+    assert (done.returncode, b"SHOP101" in done.stdout) == (0, False)
