@@ -32,11 +32,26 @@ _SETTINGS = (
     "[wire]\ndiameter_mm = 0.18\n",
     'root = true\nopen = true\nselect = ["3B2", "3B301"]\npause_marks = ["M"]\nend_marks = ["MJ", "FF"]\n'
     'exclude = ["old", "**/try/*", "[!a]?"]\n[wire]\nspark_gap_mm = 0.02\n[per_file_ignores]\n"p*.3b" = ["3B301"]\n',
-    'baseline = "known.json"\n',
+    'baseline = "known.json"\ninclude = ["O[0-9]*"]\ndialect = "makino"\n[dialects.makino]\nextends = "fanuc"\n'
+    '[dialects.makino.g]\n145 = "switch"\n',
     '[tool.drycut]\nmachine = "machine.toml"\n[tool.other]\nx = 1\n',
 )
 _SETTINGS_NAMES = (
-    *("machine", "start_mm", "open", "select", "ignore", "fail_on", "end_marks", "pause_marks", "wire", "diameter_mm"),
+    *(
+        "machine",
+        "start_mm",
+        "open",
+        "select",
+        "dialect",
+        "dialects",
+        "include",
+        "ignore",
+        "fail_on",
+        "end_marks",
+        "pause_marks",
+        "wire",
+        "diameter_mm",
+    ),
     *(
         "*",
         "[",
@@ -142,7 +157,7 @@ def judge_scenario(data: Input, number: int, folder: Path) -> Judged:
     try:
         found = load_scenario(folder)
     except DrycutError as error:
-        return _refused(error, folder)
+        return refused(error, folder)
     wanted = [texts(finding) for finding in expectation_findings(missed(_report(), found.expect))]
     return Judged(repr((found, wanted)).replace(str(folder), "HERE"), [*_of_writing(found, folder)], "read")
 
@@ -186,7 +201,7 @@ def judge_machine(data: Input, _: int, folder: Path) -> Judged:
     try:
         found = load_machine(str(file))
     except DrycutError as error:
-        return _refused(error, folder)
+        return refused(error, folder)
     first = toml_text(machine_sections(found))
     file.write_text(first, encoding="utf-8")
     try:
@@ -208,6 +223,6 @@ def judge_settings(data: Input, number: int, folder: Path) -> Judged:
     return Judged(answer_of(done, folder), list(broken_by(done, here)), f"exit {done.returncode}")
 
 
-def _refused(error: DrycutError, folder: Path) -> Judged:
+def refused(error: DrycutError, folder: Path) -> Judged:
     text = str(error)
     return Judged(text.replace(str(folder), "HERE"), [] if text.strip() else ["refused without a word"], "refused")

@@ -1,6 +1,6 @@
 """All that is fuzzed."""
 
-from fuzzing import card_logs, commands, conversions, drawings, makings, programs, runs, setups
+from fuzzing import card_logs, commands, conversions, drawings, makings, programs, runs, setups, stores
 from fuzzing.target import Target
 
 TARGETS = {
@@ -16,6 +16,9 @@ TARGETS = {
         Target("machine", setups.make_machine, setups.judge_machine, 20.0),
         Target("settings", setups.make_settings, setups.judge_settings, 5.0),
         Target("baseline", setups.make_baseline, setups.judge_baseline, 2.0),
+        Target("dialect", stores.make_dialect, stores.judge_dialect, 4.0),
+        Target("trace", stores.make_trace, stores.judge_trace, 4.0),
+        Target("loop", stores.make_loop, stores.judge_loop, 4.0),
         Target("card", card_logs.make, card_logs.judge, 25.0),
         Target("dxf", drawings.make, drawings.judge, 10.0, most_s=15.0),
         Target("compare", drawings.make, drawings.judge_compared, 0.3, most_s=20.0),
