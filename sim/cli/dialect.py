@@ -39,13 +39,13 @@ def test(samples: tuple[str, ...], chosen: "ChosenDialect | None") -> None:
     \b
     drycut dialect test samples/ --dialect makino.toml
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
-    from sim.check.file_check import check_any
+    from sim.check.file_check import check_file
     from sim.cli.check.jobs import NO_OPTIONS, STDIN, jobs_of
 
     if STDIN in samples:
         raise click.UsageError(Message("tests-no-stdin"))
     jobs = jobs_of(samples, NO_OPTIONS._replace(dialect=chosen)).jobs
-    unread = [_unread(job, check_any(_all_shown(job))) for job in jobs]
+    unread = [_unread(job, check_file(_all_shown(job))) for job in jobs]
     for sample in unread:
         for line in sample.lines():
             say(line)
@@ -55,7 +55,7 @@ def test(samples: tuple[str, ...], chosen: "ChosenDialect | None") -> None:
 
 
 def _all_shown(job: "Job") -> "Job":
-    """The job with nothing silenced: what could not be read is to be seen."""
+    """The job with nothing silenced by settings or a baseline: what could not be read is to be seen."""
     from dataclasses import replace
 
     return job._replace(settings=replace(job.settings, select=(), ignore=(), ignore_here=()), known=frozenset())
