@@ -75,7 +75,19 @@ NAMES = ("drycut.toml", "pyproject.toml")
 """Names of settings files; in one folder the first goes first."""
 _PROJECT = NAMES[1]
 _KEYS = (
-    *("root", "machine", "start_mm", "open", "select", "ignore", "fail_on", "exclude", "include", "baseline"),
+    *(
+        "root",
+        "machine",
+        "machines",
+        "start_mm",
+        "open",
+        "select",
+        "ignore",
+        "fail_on",
+        "exclude",
+        "include",
+        "baseline",
+    ),
     *(key.name for key in READ_WITH),
     *("end_marks", "pause_marks", "dialects", "wire", "per_file_ignores"),
 )
@@ -108,6 +120,8 @@ class SettingsFile:
         File of known findings; None where it names none.
     dialects
         Dialects of a shop's own, by their names.
+    machines
+        Folder of a shop's machine files; None where it names none.
     """
 
     settings: CheckSettings = CheckSettings()  # noqa: RUF009 - frozen
@@ -116,6 +130,7 @@ class SettingsFile:
     include: tuple[PathPattern, ...] = ()
     baseline: Path | None = None
     dialects: Mapping[str, OwnDialect] = field(default_factory=dict)
+    machines: Path | None = None
 
     def settings_of(self, path: Path) -> CheckSettings:
         """What one file is checked with; its path has no link in it but for its last part."""
@@ -151,10 +166,11 @@ def read_settings(content: Mapping[str, Any], file: Path, name: str) -> Settings
         field: _WIRE[key.name].read(wire, f"{name}: [wire]") for field, key in WIRE_LENGTHS.items() if key.name in wire
     }
     own = own_dialects_of(content, file, name)
+    machines = _machines(content, file, name)
     dialect = _dialect(content, own, file, name)
     settings = CheckSettings(
         dialect=dialect,
-        machine=_machine(content, file, name),
+        machine=_machine(content, file, machines, name),
         start_mm=pair(content, "start_mm", name),
         may_stay_open=truth(content, "open", name),
         select=code_list(content.get("select", []), f"{name}: select"),
@@ -172,7 +188,18 @@ def read_settings(content: Mapping[str, Any], file: Path, name: str) -> Settings
         pattern_list(content.get("include", []), file.parent, f"{name}: include"),
         file.parent / text(content, "baseline", name) if "baseline" in content else None,
         own,
+        machines,
     )
+
+
+def _machines(content: Mapping[str, Any], file: Path, where: str) -> Path | None:
+    """The folder of a shop's machine files; None where it names none. SettingsError where it is no folder."""
+    if "machines" not in content:
+        return None
+    folder = file.parent / text(content, "machines", where)
+    if not folder.is_dir():
+        raise SettingsError("no-machines-folder", where=where, folder=folder)
+    return folder
 
 
 def _dialect(content: Mapping[str, Any], own: Mapping[str, OwnDialect], file: Path, where: str) -> ChosenDialect:
@@ -218,7 +245,7 @@ def _per_file_ignores(content: Mapping[str, Any], folder: Path, where: str) -> t
     return tuple(ignored)
 
 
-def _machine(content: Mapping[str, Any], file: Path, where: str) -> "Machine | None":
+def _machine(content: Mapping[str, Any], file: Path, machines: Path | None, where: str) -> "Machine | None":
     name = content.get("machine")
     if name is None:
         return None
@@ -226,7 +253,7 @@ def _machine(content: Mapping[str, Any], file: Path, where: str) -> "Machine | N
         raise SettingsError("no-machine-name", where=where, found=name)
     from sim.setup.machine.machine import load_machine  # noqa: PLC0415 - most checks know no machine
 
-    return load_machine(name, folder=file.parent)
+    return load_machine(name, file.parent, machines)
 
 
 def _marks(content: Mapping[str, Any], where: str) -> Marks:

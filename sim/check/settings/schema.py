@@ -21,6 +21,7 @@ def settings_schema() -> dict[str, Any]:
     keys: dict[str, tuple[str, dict[str, Any]]] = {
         "root": ("the search for settings ends here", {"type": "boolean"}),
         "machine": ("name of a machine, or its .toml file", {"type": "string"}),
+        "machines": ("folder of machine files, whose names count before those that come with drycut", _TEXT),
         "start_mm": ("place of the program's start on the table", pair_schema(PLACE_MM)),
         "open": ("contours may stay open", {"type": "boolean"}),
         "select": ("codes of findings that are shown, or their beginnings", _CODES),

@@ -29,6 +29,7 @@ from sim.setup.dialect import chosen_dialect
 if TYPE_CHECKING:
     from sim.check.silence.baseline import Baseline
     from sim.cli.dialect_options import RegisterSet
+    from sim.setup.machine.machine import Machine
 
 STDIN = "-"
 
@@ -111,6 +112,7 @@ class _Making:
         self._exclude = self._patterns(options.exclude, "--exclude")
         self._include = self._patterns(options.include, "--include")
         self._baselines: dict[Path, Baseline] = {}
+        self._machines: dict[Path | None, Machine] = {}
 
     @property
     def choice(self) -> Choice:
@@ -139,7 +141,9 @@ class _Making:
         """The job of one file; ``-`` is the standard input, which counts as a file of the working folder."""
         placed = self._search.placed(Path(name))
         near = self._near(placed)
-        settings = near.settings_of(placed).with_options({**self._options, **self._dialect(near)})
+        settings = near.settings_of(placed).with_options(
+            {**self._options, **self._dialect(near), **self._machine(near)}
+        )
         _ = settings.demands  # settings that contradict each other are told before the first file
         baseline = self._baseline(near)
         of_file = baseline.of(placed) if baseline else {}
@@ -154,6 +158,17 @@ class _Making:
         if not isinstance(name, str) or not name:
             return {}
         return {"dialect": chosen_dialect(name, Path(), near.dialects, "--dialect")}
+
+    def _machine(self, near: SettingsFile) -> dict[str, Any]:
+        """The machine that the command line names, of which settings may have the file."""
+        name = self._asked.machine
+        if name is None:
+            return {}
+        if near.machines not in self._machines:
+            from sim.setup.machine.machine import load_machine
+
+            self._machines[near.machines] = load_machine(name, own=near.machines)
+        return {"machine": self._machines[near.machines]}
 
     def _near(self, placed: Path) -> SettingsFile:
         return self._only or self._search.near(placed.parent)
@@ -180,10 +195,6 @@ def _settings(options: CheckOptions) -> dict[str, Any]:
         given["ignore"] = code_list(options.ignore.split(","), "--ignore")
     if options.fail_on is not None:
         given["fail_on"] = mildest_failing(options.fail_on, "--fail-on")
-    if options.machine is not None:
-        from sim.setup.machine.machine import load_machine
-
-        given["machine"] = load_machine(options.machine)
     given |= {field: key.of_option(lengths[key.name]) for field, key in WIRE_LENGTHS.items() if key.name in lengths}
     if options.may_stay_open:
         given["may_stay_open"] = True

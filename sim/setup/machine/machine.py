@@ -72,15 +72,19 @@ def machine_names() -> tuple[str, ...]:
     return tuple(sorted(each.name.removesuffix(".toml") for each in shipped.iterdir() if each.name.endswith(".toml")))
 
 
-def load_machine(name: str, folder: Path | None = None) -> Machine:
+def load_machine(name: str, folder: Path | None = None, own: Path | None = None) -> Machine:
     """Machine of a shipped name such as ``dk7740``, or of a ``.toml`` file (relative to `folder`).
 
-    Raises FileUnreadableError and SettingsError with the file and the key.
+    `own` is a folder of machine files, whose names without ``.toml`` count before those that are shipped. Raises
+    FileUnreadableError and SettingsError with the file and the key.
     """
     if name.endswith(".toml"):
         return _read(Path(folder or "") / name)
     shipped = resources.files("sim.setup.machine")
-    known = machine_names()
+    theirs = {file.stem: file for file in sorted(own.glob("*.toml"))} if own else {}
+    if name in theirs:
+        return _read(theirs[name])
+    known = (*theirs, *machine_names())
     if name not in known:
         raise SettingsError("machine-not-shipped", name=name, known=", ".join(known))
     with resources.as_file(shipped / f"{name}.toml") as path:

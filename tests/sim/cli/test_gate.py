@@ -1,9 +1,11 @@
 """What a check looks at, with which settings, and what of it fails: as a shop adopts it."""
 
+import re
 from pathlib import Path
 
 import pytest
 from checking import SOUND, WRONG_AXIS, drycut
+from places import ROOT
 
 OPEN = "B9900B0B9900GXL1\nB0B9900B9900GYL2\nB3000B2000B3000GXL3\nDD\n"
 LABEL = SOUND.replace("GXL1", "GXL4")  # a warning
@@ -89,3 +91,20 @@ def test_among_several_files_those_that_pass_are_only_counted(tmp_path: Path) ->
     assert out.splitlines()[-1].startswith("10 files: 9 pass, 1 fail; 1 error")
     (tmp_path / "x.3b").unlink()
     assert drycut("check", ".", cwd=tmp_path) == (0, "9 files: 9 pass; no findings\n", "")
+
+
+def test_a_shop_has_machines_of_its_own_by_name(shop: Path) -> None:
+    (shop / "machines").mkdir()
+    shipped = (ROOT / "sim" / "setup" / "machine" / "dk7740.toml").read_text("utf-8")
+    (shop / "machines" / "mill.toml").write_text(re.sub(r"travel_x_mm = .*", "travel_x_mm = 5.0", shipped), "utf-8")
+    (shop / "drycut.toml").write_text('machines = "machines"\n', "ascii")
+    assert drycut("check", "a.3b", cwd=shop)[0] == 0
+    assert drycut("check", "a.3b", "--machine", "dk7740", cwd=shop)[0] == 0
+    assert "3B401" in drycut("check", "a.3b", "--machine", "mill", cwd=shop)[1]
+    code, _, err = drycut("check", "a.3b", "--machine", "lathe", cwd=shop)
+    assert (code, "mill" in err) == (2, True)
+    (shop / "drycut.toml").write_text('machines = "machines"\nmachine = "mill"\n', "ascii")
+    assert "3B401" in drycut("check", "a.3b", cwd=shop)[1]
+    (shop / "drycut.toml").write_text('machines = "nowhere"\n', "ascii")
+    code, _, err = drycut("check", "a.3b", cwd=shop)
+    assert (code, "machines is a folder" in err) == (2, True)

@@ -26,6 +26,7 @@ MACHINES = sorted((ROOT / "sim" / "setup" / "machine").rglob("*.toml"))
 IN_FULL = """
 root = true
 machine = "dk7740"
+machines = "."
 start_mm = [120.0, 200.0]
 open = true
 select = ["3B2"]
