@@ -35,6 +35,7 @@ INPUTS = {
         "dialect": 60,
         "trace": 100,
         "loop": 100,
+        "editor": 60,
         "card": 200,
         "dxf": 60,
     },

@@ -1,6 +1,6 @@
 """All that is fuzzed."""
 
-from fuzzing import card_logs, commands, conversions, drawings, makings, programs, runs, setups, stores
+from fuzzing import card_logs, commands, conversions, drawings, editors, makings, programs, runs, setups, stores
 from fuzzing.target import Target
 
 TARGETS = {
@@ -19,6 +19,7 @@ TARGETS = {
         Target("dialect", stores.make_dialect, stores.judge_dialect, 4.0),
         Target("trace", stores.make_trace, stores.judge_trace, 4.0),
         Target("loop", stores.make_loop, stores.judge_loop, 4.0),
+        Target("editor", editors.make, editors.judge, 8.0),
         Target("card", card_logs.make, card_logs.judge, 25.0),
         Target("dxf", drawings.make, drawings.judge, 10.0, most_s=15.0),
         Target("compare", drawings.make, drawings.judge_compared, 0.3, most_s=20.0),
