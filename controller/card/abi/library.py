@@ -1,5 +1,6 @@
 """The library at work in a program's process: its card, its clock, its log, and a Python function for each in C."""
 
+import contextlib
 import ctypes
 import sys
 import traceback
@@ -11,6 +12,7 @@ from controller.card.abi.clocks import Clock, SimulatedClock, WallClock
 from controller.card.abi.environment import CardEnvironment
 from controller.card.abi.table import Prototype, prototypes
 from controller.card.abi.turns import Passed, Tasks, Turns
+from controller.card.core.settings import CardSettings
 from controller.card.ge import GECard
 from controller.card.log.writer import CardLog
 from parser.findings.errors import FileUnreadableError
@@ -34,7 +36,7 @@ class Library:
 
     def __init__(self, wanted: CardEnvironment, tasks: Tasks, passed: Passed) -> None:
         self._stream = _opened(wanted.log) if wanted.log else None
-        self._log = CardLog(self._stream, wanted.settings) if self._stream else None
+        self._log = _begun(self._stream, wanted.settings) if self._stream else None
         self.card = GECard(wanted.settings, on_call=self._log)
         self.clock: Clock = (
             SimulatedClock(self.card, Turns(tasks, passed))
@@ -111,6 +113,16 @@ def _opened(path: Path) -> TextIO:
         return path.open("w", encoding="utf-8", buffering=1)
     except OSError as error:
         raise FileUnreadableError("cannot-be-written", file=path, why=system_message(error)) from None
+
+
+def _begun(stream: TextIO, settings: CardSettings) -> CardLog:
+    """A log in a file, which is closed where its head cannot be written. OSError then."""
+    try:
+        return CardLog(stream, settings)
+    except OSError:
+        with contextlib.suppress(OSError):
+            stream.close()  # else Python complains of it once more when the process ends
+        raise
 
 
 def _hook(place: int) -> Callable[[str, int], None] | None:
