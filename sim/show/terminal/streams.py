@@ -72,8 +72,8 @@ class Outlet(io.TextIOBase):
         return self
 
     def flush(self) -> None:
-        """Hand over to the system what was written."""
-        if not self._lost:
+        """Hand over to the system what was written; nothing once the stream is closed, where Python flushes again."""
+        if not self._lost and not self._stream.closed:
             try:
                 self._stream.flush()
             except OSError as error:
@@ -133,7 +133,8 @@ class Cleaned(io.TextIOBase):
     def flush(self) -> None:
         """Hand over to the system what was written, also the beginning of a line."""
         begun, self._begun = self._begun, ""
-        self.outlet.write(harmless(begun))
+        if begun:
+            self.outlet.write(harmless(begun))
         self.outlet.flush()
 
 

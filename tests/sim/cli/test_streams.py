@@ -1,5 +1,6 @@
 """Closed streams, full disks and readers that have gone: never a traceback, and the exit code tells the verdict."""
 
+import io
 import os
 from collections.abc import Iterator
 from pathlib import Path
@@ -7,6 +8,8 @@ from pathlib import Path
 import pytest
 from checking import WRONG_AXIS
 from forked import Forked, forked
+
+from sim.show.terminal.streams import Cleaned, Outlet
 
 pytestmark = pytest.mark.skipif(not Path("/dev/full").exists(), reason="has no fork, or no device that is always full")
 
@@ -81,3 +84,13 @@ def test_a_closed_stdin_that_is_to_be_checked_is_told(drycut: Forked) -> None:
     assert (done.code, done.out, len(done.err.splitlines())) == (2, "", 1)
     assert "stdin" in done.err
     assert os.devnull not in done.err
+
+
+def test_nothing_is_said_of_a_stream_that_has_ended() -> None:
+    stream = io.TextIOWrapper(io.BytesIO(), encoding="utf-8")
+    outlet = Outlet(stream, must_arrive=True)
+    cleaned = Cleaned(outlet)
+    cleaned.write("a line\n")
+    stream.close()
+    cleaned.flush()  # as Python 3.13 does of every stream that is no longer used
+    outlet.flush()
