@@ -1,12 +1,12 @@
 # drycut with all extras; docker build -t drycut . && docker run --rm -v "$PWD:/work" drycut check .
-FROM python:3.13-slim AS build
+FROM python:3.11-slim AS build
 COPY . /source
 RUN python -m venv /opt/drycut \
  && /opt/drycut/bin/pip install --no-cache-dir --require-hashes --requirement /source/requirements-all-lock.txt \
  && /opt/drycut/bin/pip install --no-cache-dir --no-deps /source \
  && NUMBA_CACHE_DIR=/opt/drycut/loops /opt/drycut/bin/python -m sim.cli.compile
 
-FROM python:3.13-slim
+FROM python:3.11-slim
 COPY --from=build /opt/drycut /opt/drycut
 RUN useradd --create-home drycut
 USER drycut

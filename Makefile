@@ -95,8 +95,8 @@ lock: $(READY)
 	$(BIN)/uv pip compile --quiet --universal --python-version 3.11 \
 		--generate-hashes --no-header --output-file requirements-core-lock.txt pyproject.toml
 
-# What a release consists of, in `dist/`: the packages, locks of the core and of all extras by hashes, and an SBOM of what
-# they install, with licences.
+# What a release consists of, in `dist/`: the packages, locks of the core and of all extras, and an SBOM of what they
+# install, with licences.
 release: $(READY)
 	rm -rf dist
 	$(BIN)/python -m hatchling build
@@ -107,7 +107,8 @@ release: $(READY)
 	dist/.env/bin/pip install --quiet --disable-pip-version-check --require-hashes --requirement requirements-all-lock.txt
 	dist/.env/bin/pip install --quiet --disable-pip-version-check --no-deps --no-index --find-links dist drycut
 	dist/.env/bin/pip uninstall --quiet --yes pip setuptools
-	dist/.tools/bin/cyclonedx-py environment --pyproject pyproject.toml --output-reproducible --output-file dist/sbom.cdx.json dist/.env/bin/python
+	dist/.tools/bin/cyclonedx-py environment --pyproject pyproject.toml --output-reproducible \
+		--output-file dist/sbom.cdx.json dist/.env/bin/python
 	rm -rf dist/.tools dist/.env
 	@ls -l dist
 

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from parser.dialect.choices import STANDARD_CHOICES, Choices, Marks, OwnDialect
+from parser.dialect.choices import STANDARD_CHOICES, Choices, Marks
 from parser.dialect.decoding import Decoder
 from parser.dialect.mender import Mender
 from parser.dialect.reader import HeaderValue, Reader, Reading
@@ -14,12 +14,13 @@ from parser.files.reading import read_bytes
 from parser.findings.errors import ProgramError
 from parser.findings.findings import Finding
 from parser.iso.dialect import ISO
-from parser.iso.profiles.own import own_profile, own_schema, own_text
+from parser.iso.profiles.own import own_dialect as own_dialect  # noqa: PLC0414 - handed on
+from parser.iso.profiles.own import own_dialect_schema as own_dialect_schema  # noqa: PLC0414 - handed on
+from parser.iso.profiles.own import own_dialect_text as own_dialect_text  # noqa: PLC0414 - handed on
 from parser.iso.profiles.profile import PROFILES
 from parser.pmac.dialect import PMAC
 from parser.text.encoding import decode_text, narrow, no_program, printable
 from parser.text.lines import LineIndex
-from parser.text.places import KeyPlaces
 from parser.threeb.dialect import THREE_B
 from parser.toolpath import Toolpath
 
@@ -163,21 +164,6 @@ def own_marks() -> Marks:
 def dialects() -> tuple[str, ...]:
     """Names of dialects that may be chosen for a program: the profiles of ISO."""
     return PROFILES
-
-
-def own_dialect(name: str, values: Mapping[str, object], places: KeyPlaces, under: tuple[str, ...] = ()) -> OwnDialect:
-    """A dialect of a shop's own that may be chosen, as a table says it. SettingsError for what no dialect can have."""
-    return own_profile(name, values, places, under)
-
-
-def own_dialect_text(dialect: OwnDialect) -> str:
-    """The file of a dialect of a shop's own, as `own_dialect` reads it."""
-    return own_text(dialect)
-
-
-def own_dialect_schema() -> dict[str, object]:
-    """JSON schema of the table that `own_dialect` reads."""
-    return own_schema()
 
 
 def block_words() -> tuple[str, ...]:

@@ -4,7 +4,6 @@ A document is a `TypedDict`, so that mypy holds what is written against the mode
 degrees, unless the name of a field says otherwise.
 """
 
-import re
 from typing import Annotated, Any, Literal, NamedTuple, TypedDict
 
 
@@ -61,12 +60,9 @@ Ring = Annotated[list[Point], of_length(3)]
 """Corners of a closed polygon."""
 Encoding = Annotated[str, one_of("utf-8", "utf-8-sig", "utf-16-le", "utf-16-be", "gb18030", "big5", "latin-1")]
 """Encoding of a program file."""
-DIALECTS = (
-    *("3B", "4B", "3B+4B", "fast-wire", "classroom", "skd2", "robofil", "sodick", "mitsubishi", "fanuc"),
-    *("patent-mill", "common", "strict", "PMAC"),
-)
-OWN_DIALECT = "[a-z0-9][a-z0-9_-]*"
-DialectName = Annotated[str, matching(rf"^(?:{'|'.join(map(re.escape, DIALECTS))}|{OWN_DIALECT})$")]
+DIALECT = r"3B|4B|3B\+4B|PMAC|[a-z0-9][a-z0-9_-]*"
+"""Names of dialects: in small letters those of ISO, profiles and a shop's own."""
+DialectName = Annotated[str, matching(f"^(?:{DIALECT})$")]
 """Dialect of a program, of ISO the profile that it was read by, or a dialect of a shop's own."""
 AxisName = Annotated[str, one_of("X", "Y")]
 CurveName = Annotated[str, one_of("line", "arc", "jump")]

@@ -24,10 +24,6 @@ class KeyPlaces:
             elif key:
                 self._places.setdefault((*section, *_parts(key[1])), (number, key.start(1) + 1))
 
-    def has(self, *keys: str) -> bool:
-        """Whether a key or a table within these stands in the text."""
-        return any(known[: len(keys)] == keys for known in self._places)
-
     def of(self, *keys: str) -> str:
         """``makino.toml:7:1``: the place of a key, or of the nearest table around it that has one; else the file."""
         for length in range(len(keys), 0, -1):

@@ -15,7 +15,7 @@ def _none(_: Path) -> bool:
     return False
 
 
-class Choice(NamedTuple):
+class FileFilter(NamedTuple):
     """Which files of folders count.
 
     Attributes
@@ -44,7 +44,7 @@ class Found(NamedTuple):
     passed_over: list[str]
 
 
-def find_files(names: Sequence[str], choice: Choice = Choice()) -> Found:  # noqa: B008 - frozen
+def find_files(names: Sequence[str], file_filter: FileFilter = FileFilter()) -> Found:  # noqa: B008 - frozen
     """Files of the names: files themselves, all programs in folders and below, and what globs match.
 
     Files and folders that are excluded are left out, unless they are named themselves. Each file stands there once, as
@@ -55,7 +55,7 @@ def find_files(names: Sequence[str], choice: Choice = Choice()) -> Found:  # noq
     found: dict[str, str] = {}
     passed_over: dict[str, None] = {}
     for name in names:
-        looked = _Looked(choice)
+        looked = _Looked(file_filter)
         files = list(looked.files(name))
         if not files:
             raise FileUnreadableError(
@@ -72,11 +72,11 @@ def find_files(names: Sequence[str], choice: Choice = Choice()) -> Found:  # noq
 class _Looked:
     """Looks through what one name leads to.
 
-    `left_out` tells whether something in it is excluded; `passed_over` are files that no choice is made about.
+    `left_out` tells whether something in it is excluded; `passed_over` are files that do not count by their names.
     """
 
-    def __init__(self, choice: Choice) -> None:
-        self._choice = choice
+    def __init__(self, file_filter: FileFilter) -> None:
+        self._filter = file_filter
         self.left_out = False
         self.passed_over: list[str] = []
 
@@ -103,7 +103,7 @@ class _Looked:
         for here, folders, names in os.walk(folder, onerror=lambda error: shut.append(str(error.filename))):
             folders[:] = [name for name in folders if self._keeps(Path(here) / name)]
             for file in (Path(here) / name for name in names):
-                if self._choice.has(file):
+                if self._filter.has(file):
                     if (file.is_file() or (file.is_symlink() and not file.exists())) and self._keeps(file):
                         yield str(file)
                 elif not any(part.startswith(".") for part in file.relative_to(folder).parts):
@@ -111,11 +111,11 @@ class _Looked:
         yield from shut
 
     def _pass_over(self, file: Path) -> None:
-        if not self._choice.is_excluded(file):
+        if not self._filter.is_excluded(file):
             self.passed_over.append(str(file))
 
     def _keeps(self, path: Path) -> bool:
-        if self._choice.is_excluded(path):
+        if self._filter.is_excluded(path):
             self.left_out = True
             return False
         return True

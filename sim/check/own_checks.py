@@ -1,4 +1,4 @@
-"""Checks of a shop's own: functions that distributions offer under the entry point ``drycut.checks`` (docs/check.md).
+"""Checks of a shop's own: functions that distributions offer under the entry point ``drycut.checks`` (docs/python.md).
 
 They see a program as it was read, and give findings with codes and texts of their own. They are found once, when the
 first program is checked.
@@ -83,7 +83,7 @@ class OwnFinding(NamedTuple):
     code
         One of the codes of the check.
     block
-        Number of the block from 1, as `Program.toolpath` has rows from 0; 0 where no block is meant.
+        Number of the block, as `Program.toolpath.source.block` has it, from 1; 0 where no block is meant.
     line
         Line from 1, where no block is meant; 0 of the whole program.
     values

@@ -17,7 +17,7 @@ from typing import Final, NamedTuple
 from parser.findings.errors import DrycutError
 from parser.program import suffixes
 from parser.text.encoding import printable
-from sim.check.files import Choice, find_files
+from sim.check.files import FileFilter, find_files
 from sim.setup.scenario import Scenario
 
 # Forbidden in names by Windows, with what is no character for people.
@@ -132,8 +132,8 @@ def find_programs(
     """
     away = out.resolve()
     ends = (*suffixes(), f"/{SCENARIO}")
-    choice = Choice(is_excluded=lambda path: path.resolve() == away, ends=ends)
-    files = [Path(file) for file in find_files(names, choice).files]
+    file_filter = FileFilter(is_excluded=lambda path: path.resolve() == away, ends=ends)
+    files = [Path(file) for file in find_files(names, file_filter).files]
     scenarios = {file: _scenario(file.parent, scenario_of) for file in files if file.name.lower() == SCENARIO}
     theirs = _Theirs(scenarios)
     apart = [file for file in files if file in scenarios or file not in theirs]

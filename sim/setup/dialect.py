@@ -62,8 +62,10 @@ def own_dialect_of(file: Path) -> OwnDialect:
     return own_dialect(file.stem.lower(), content, KeyPlaces(str(file), read_text(file)))
 
 
-def own_dialects_of(content: Mapping[str, Any], file: Path, name: str) -> dict[str, OwnDialect]:
+def own_dialects_of(content: Mapping[str, Any], file: Path, name: str, above: tuple[str, ...]) -> dict[str, OwnDialect]:
     """Dialects of one's own under ``[dialects]`` of a settings file, by their names; the file is called `name`.
+
+    `content` stands in the file under the tables `above`, such as ``tool.drycut``.
 
     Each is a table, or the name of its file, from the folder of the settings. Raises as `own_dialect_of` does.
     """
@@ -71,7 +73,6 @@ def own_dialects_of(content: Mapping[str, Any], file: Path, name: str) -> dict[s
     if not listed:
         return {}
     places, own = KeyPlaces(name, read_text(file)), {}
-    above = ("tool", "drycut") if places.has("tool", "drycut") else ()
     for key, value in listed.items():
         under = (*above, "dialects", key)
         if isinstance(value, str):

@@ -25,7 +25,7 @@ _LONGEST_UM: Final = 1e12
 _EXTENDS: Final = "extends"
 
 
-def own_profile(name: str, values: Mapping[str, Any], places: KeyPlaces, under: tuple[str, ...] = ()) -> OwnDialect:
+def own_dialect(name: str, values: Mapping[str, Any], places: KeyPlaces, under: tuple[str, ...] = ()) -> OwnDialect:
     """The dialect of this name that a table says; `places` knows where its keys stand, the table itself `under` some.
 
     Raises SettingsError with file, line and column for what no profile can have.
@@ -43,8 +43,8 @@ def own_profile(name: str, values: Mapping[str, Any], places: KeyPlaces, under: 
     return OwnDialect(name, base, json.dumps(changed, sort_keys=True))
 
 
-def own_text(dialect: OwnDialect) -> str:
-    """The file of a dialect: `own_profile` reads the same of it."""
+def own_dialect_text(dialect: OwnDialect) -> str:
+    """The file of a dialect: `own_dialect` reads the same of it."""
     changed = {_EXTENDS: dialect.base, **json.loads(dialect.changed)}
     lines = [f"{key} = {json.dumps(value)}" for key, value in changed.items() if not isinstance(value, dict)]
     for section, table in changed.items():
@@ -53,7 +53,7 @@ def own_text(dialect: OwnDialect) -> str:
     return "\n".join(lines) + "\n"
 
 
-def own_schema() -> dict[str, Any]:
+def own_dialect_schema() -> dict[str, Any]:
     """JSON schema of the table of a dialect."""
     keys = {_EXTENDS: {"enum": list(PROFILES)}, **{key: _schema(of) for key, of in _types().items()}}
     return {"type": "object", "additionalProperties": False, "properties": keys}

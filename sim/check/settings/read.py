@@ -74,6 +74,8 @@ def _compiled(text: str) -> re.Pattern[str]:
 NAMES = ("drycut.toml", "pyproject.toml")
 """Names of settings files; in one folder the first goes first."""
 _PROJECT = NAMES[1]
+_TOOL = ("tool", "drycut")
+"""Tables of the second under which its settings stand."""
 _KEYS = (
     *(
         "root",
@@ -149,8 +151,9 @@ def content_of(file: Path) -> Mapping[str, Any] | None:
     content = load_toml(file)
     if file.name != _PROJECT:
         return content
-    tools = section(content, "tool", str(file))
-    return section(tools, "drycut", str(file)) if "drycut" in tools else None
+    tool, drycut = _TOOL
+    tools = section(content, tool, str(file))
+    return section(tools, drycut, str(file)) if drycut in tools else None
 
 
 def read_settings(content: Mapping[str, Any], file: Path, name: str) -> SettingsFile:
@@ -165,7 +168,7 @@ def read_settings(content: Mapping[str, Any], file: Path, name: str) -> Settings
     lengths = {
         field: _WIRE[key.name].read(wire, f"{name}: [wire]") for field, key in WIRE_LENGTHS.items() if key.name in wire
     }
-    own = own_dialects_of(content, file, name)
+    own = own_dialects_of(content, file, name, _TOOL if file.name == _PROJECT else ())
     machines = _machines(content, file, name)
     dialect = _dialect(content, own, file, name)
     settings = CheckSettings(

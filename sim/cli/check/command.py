@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from sim.cli.check.outputs import Output
     from sim.show.findings.options import Options
 
+_MODES = ("fix", "diff", "watch", "show_files", "show_settings")
+"""Parameters of what is done in place of a check, or with it; one at a time."""
 _OF_FILES = {
     "--fix": "mends-no-stdin",
     "--diff": "shows-no-mends-of-stdin",
@@ -40,12 +42,7 @@ def check(  # noqa: PLR0913 - click hands over each option by its name
     output_file: Path | None,
     statistics: bool,
     quiet: bool,
-    fix: bool,
     exit_zero: bool,
-    diff: bool,
-    watch: bool,
-    show_files: bool,
-    show_settings: bool,
     jobs: int | None,
     scheduler: str | None,
     **values: Any,
@@ -59,42 +56,37 @@ def check(  # noqa: PLR0913 - click hands over each option by its name
     drycut check die.iso --dialect robofil --offset D0=0.11mm
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     from sim.check.own_checks import load_own_checks
-    from sim.cli.check.jobs import check_options_of, choice_of
+    from sim.cli.check.jobs import check_options_of, filter_of
     from sim.cli.check.outputs import outputs_of
     from sim.show.findings.options import Options
 
     load_own_checks()  # before any code is read, or any result of another process is written
-    _refuse_contradictions(
-        files,
-        formats,
-        values,
-        {
-            "--fix": fix,
-            "--diff": diff,
-            "--watch": watch,
-            "--show-files": show_files,
-            "--show-settings": show_settings,
-        },
-    )
+    mode = _mode(values)
+    _refuse_contradictions(files, formats, values, mode)
     options, style = check_options_of(values), Options(spoken(), quiet=quiet, statistics=statistics)
     outputs = outputs_of(formats, output_file, options.write_baseline)
     work = _Work(files, options, outputs, style, Spread(jobs, scheduler))
-    if watch:
+    if mode == "--watch":
         from sim.cli.check import watching
 
-        watching.watch(files, lambda: choice_of(options), lambda: _check(work, _jobs(work)), style.language)
-    to_check = _jobs(work)
-    if show_files or show_settings:
+        watching.watch(files, lambda: filter_of(options), lambda: _check(work, _jobs(work)), style.language)
+    raise _exit(_done(mode, work, _jobs(work)), is_zero=exit_zero)
+
+
+def _done(mode: str, work: "_Work", found: "Jobs") -> int:
+    """Show, mend or check the files; the exit code."""
+    language = work.style.language
+    if mode in ("--show-files", "--show-settings"):
         from sim.cli.check import shown
 
-        (shown.show_files if show_files else shown.show_settings)(to_check, style.language)
-        return
-    if diff:
+        (shown.show_files if mode == "--show-files" else shown.show_settings)(found, language)
+        return 0
+    if mode == "--diff":
         from sim.cli.check.mends import show_diffs
 
-        raise _exit(show_diffs(to_check.jobs, output_file, style.language), is_zero=exit_zero)
-    code = _fix(to_check.jobs, style.language) if fix else 0
-    raise _exit(max(code, _check(work, to_check)), is_zero=exit_zero)
+        return show_diffs(found.jobs, work.outputs[0].file, language)
+    code = _fix(found.jobs, language) if mode == "--fix" else 0
+    return max(code, _check(work, found))
 
 
 class _Work(NamedTuple):
@@ -118,22 +110,30 @@ def _ledger(options: "CheckOptions") -> "Ledger":
     return Written(options.write_baseline) if options.write_baseline else AgainstBaseline()
 
 
+def _mode(values: dict[str, Any]) -> str:
+    """The option of what is done in place of a check, or with it, taken out of the values; empty where none is given.
+
+    UsageError where two are given.
+    """
+    given = [f"--{name.replace('_', '-')}" for name in _MODES if values.pop(name)]
+    if len(given) > 1:
+        raise click.UsageError(Message("options-exclude-each-other", options=" and ".join(given)))
+    return given[0] if given else ""
+
+
 def _refuse_contradictions(
-    files: Sequence[str], formats: Sequence["Output"], settings: Mapping[str, Any], given: Mapping[str, bool]
+    files: Sequence[str], formats: Sequence["Output"], settings: Mapping[str, Any], mode: str
 ) -> None:
-    """UsageError for options of which one leaves no room for the other; `given` are those that mend or watch."""
+    """UsageError for options of which one leaves no room for the other."""
     from sim.cli.check.jobs import STDIN
 
-    chosen = [option for option, is_given in given.items() if is_given]
-    if len(chosen) > 1:
-        raise click.UsageError(Message("options-exclude-each-other", options=" and ".join(chosen)))
-    if STDIN in files and chosen and chosen[0] in _OF_FILES:
-        raise click.UsageError(Message(_OF_FILES[chosen[0]], option=chosen[0]))
+    if STDIN in files and mode in _OF_FILES:
+        raise click.UsageError(Message(_OF_FILES[mode], option=mode))
     needs = {"--format": formats, "--write-baseline": settings["write_baseline"]}
     dependent = [option for option, is_given in needs.items() if is_given]
-    if dependent and chosen == ["--diff"]:
+    if dependent and mode == "--diff":
         raise click.UsageError(Message("diff-shows-no-findings", option=dependent[0]))
-    if settings["write_baseline"] and chosen == ["--watch"]:
+    if settings["write_baseline"] and mode == "--watch":
         raise click.UsageError(Message("watch-writes-no-baseline"))
 
 

@@ -11,7 +11,7 @@ from parser.files.reading import read_stdin
 from parser.findings.codes import CODES
 from parser.findings.messages import Message
 from sim.check.file_check import Job
-from sim.check.files import Choice, find_files
+from sim.check.files import FileFilter, find_files
 from sim.check.settings.model import WIRE_LENGTHS
 from sim.check.settings.read import (
     NAMES,
@@ -89,14 +89,14 @@ def jobs_of(names: Sequence[str], options: CheckOptions) -> Jobs:
     if options.baseline and options.write_baseline:
         raise click.UsageError(Message("baseline-and-write-baseline"))
     making = _Making(options)
-    found = find_files(names, making.choice)
+    found = find_files(names, making.file_filter)
     jobs = [making.job(name) for name in found.files]
     return Jobs(jobs, [name for name in found.passed_over if not making.is_own(Path(name))])
 
 
-def choice_of(options: CheckOptions) -> Choice:
+def filter_of(options: CheckOptions) -> FileFilter:
     """Which files of folders are checked. Raises what `jobs_of` raises of settings."""
-    return _Making(options).choice
+    return _Making(options).file_filter
 
 
 class _Making:
@@ -115,9 +115,9 @@ class _Making:
         self._machines: dict[Path | None, Machine] = {}
 
     @property
-    def choice(self) -> Choice:
+    def file_filter(self) -> FileFilter:
         """Which files of folders are checked."""
-        return Choice(self._is_excluded, self._is_included)
+        return FileFilter(self._is_excluded, self._is_included)
 
     def is_own(self, path: Path) -> bool:
         """Whether a file is one of drycut's own: settings, or a baseline that was read."""

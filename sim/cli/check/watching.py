@@ -12,7 +12,7 @@ import click
 
 from parser.findings.catalogue import Language
 from parser.findings.errors import DrycutError
-from sim.check.files import Choice
+from sim.check.files import FileFilter
 from sim.check.settings.read import NAMES
 from sim.cli.spoken import complaint
 from sim.show.terminal.printer import clear, say
@@ -33,14 +33,14 @@ class _FileState(NamedTuple):
 
 
 def watch(
-    names: Sequence[str], choice: Callable[[], Choice], check: Callable[[], object], language: Language
+    names: Sequence[str], file_filter: Callable[[], FileFilter], check: Callable[[], object], language: Language
 ) -> NoReturn:
     """Check, and again after each change of what the names lead to, until KeyboardInterrupt.
 
-    `choice` says which files of folders count, as settings stand then. What keeps the first check from being done is
-    raised; later it is told, as a later change may mend it.
+    `file_filter` says which files of folders count, as settings stand then. What keeps the first check from being done
+    is raised; later it is told, as a later change may mend it.
     """
-    counts = choice()
+    counts = file_filter()
     seen = _look(names, counts)
     clear()
     check()
@@ -49,7 +49,7 @@ def watch(
         seen = _settled_change(names, counts, seen)
         clear()
         try:
-            counts = choice()
+            counts = file_filter()
             check()
         except DrycutError as error:
             say(Words(language)("commands.error", message=error), err=True)
@@ -62,23 +62,25 @@ def rest_s(look_s: float) -> float:
     return min(max(_LEAST_REST_S, _RESTS_A_LOOK * look_s), _MOST_REST_S)
 
 
-def _settled_change(names: Sequence[str], choice: Choice, before: dict[str, _FileState]) -> dict[str, _FileState]:
+def _settled_change(
+    names: Sequence[str], file_filter: FileFilter, before: dict[str, _FileState]
+) -> dict[str, _FileState]:
     """What is seen as soon as it is not as before, and the same at two looks: a file half written changes again."""
     last, look_s = before, 0.0
     while True:
         time.sleep(rest_s(look_s))
         began_s = time.monotonic()
-        now = _look(names, choice)
+        now = _look(names, file_filter)
         look_s = time.monotonic() - began_s
         if now == last != before:
             return now
         last = now
 
 
-def _look(names: Sequence[str], choice: Choice) -> dict[str, _FileState]:
+def _look(names: Sequence[str], file_filter: FileFilter) -> dict[str, _FileState]:
     """The files that the names lead to, and settings that may count for them; none that cannot be looked at."""
     seen: dict[str, _FileState] = {}
-    programs = {path for name in names for path in _paths(name, choice)}
+    programs = {path for name in names for path in _paths(name, file_filter)}
     folders = {os.path.dirname(path) for path in programs}  # noqa: PTH120 - as below
     for path in (*programs, *{file for folder in folders for file in _settings_above(folder)}):
         try:
@@ -96,22 +98,22 @@ def _settings_above(folder: str) -> tuple[str, ...]:
     return tuple(str(above / name) for above in (here, *here.parents) for name in NAMES)
 
 
-def _paths(name: str, choice: Choice) -> Iterator[str]:
+def _paths(name: str, file_filter: FileFilter) -> Iterator[str]:
     """What `sim.check.files.find_files` would find, without telling files apart that have several names."""
     path = Path(name)
     if path.is_dir():
         for here, _, files in os.walk(name):
-            yield from (f"{here}/{file}" for file in files if _counts(choice, Path(here, file)))
+            yield from (f"{here}/{file}" for file in files if _counts(file_filter, Path(here, file)))
     elif glob.has_magic(name) and not path.is_file():
         for match in glob.glob(name, recursive=True):  # noqa: PTH207 - Path.glob refuses absolute patterns
-            yield from _paths(match, choice)
+            yield from _paths(match, file_filter)
     else:
         yield name
 
 
-def _counts(choice: Choice, file: Path) -> bool:
+def _counts(file_filter: FileFilter, file: Path) -> bool:
     """Whether a file of a folder counts; by its suffix alone where settings that are wrong just now do not say."""
     try:
-        return choice.has(file)
+        return file_filter.has(file)
     except DrycutError:
         return False

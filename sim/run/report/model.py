@@ -1,11 +1,9 @@
 """Model of ``report.json`` (docs/report.md)."""
 
-import re
 from typing import Annotated, Final, Literal, TypedDict
 
 from parser.documents.fields import (
-    DIALECTS,
-    OWN_DIALECT,
+    DIALECT,
     AssumptionEntry,
     AxisName,
     BlockCountsEntry,
@@ -69,7 +67,7 @@ class ProgramEntry(TypedDict):
     title: Text
     provenance: str
     encoding: Encoding
-    dialect: Annotated[str, matching(rf"^(?:GE card|{'|'.join(map(re.escape, DIALECTS))}|{OWN_DIALECT})$")]
+    dialect: Annotated[str, matching(f"^(?:GE card|{DIALECT})$")]
     header: HeaderEntry | NoHeaderEntry
 
 

@@ -90,15 +90,15 @@ def render(results: Iterable[CheckResult], options: Options) -> Iterator[str]:
 
     A file that passes without a finding has a line of its own where it is the only one.
     """
-    totals, last = Totals(), ""
+    totals, only = Totals(), ""
     for result in totals.over(results):
         is_silent = not result.findings and result.verdict == "pass"
         if not is_silent:
             yield _lines(_file(result, options))
         elif totals.files.total() == 1:
-            last = _lines(_file(result, options))
+            only = _lines(_file(result, options))
     if totals.files.total() == 1 and not options.quiet:
-        yield last
+        yield only
     if totals.files.total() > 1 and not options.quiet:
         yield _lines(_styled(line, "bold", options) for line in _wrapped(summary(totals, options.language), options))
     if options.quiet or totals.files.total() > 1:  # files that pass have no lines to say it

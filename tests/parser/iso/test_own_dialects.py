@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from parser.dialect.choices import Choices, OwnDialect
 from parser.findings.errors import SettingsError
 from parser.iso.profiles import profile as profiles_module
-from parser.iso.profiles.own import own_profile, own_text
+from parser.iso.profiles.own import own_dialect, own_dialect_text
 from parser.iso.profiles.profile import PROFILES, profile
 from parser.program import parse_program
 from parser.text.places import KeyPlaces
@@ -22,14 +22,14 @@ PROGRAM = "O0001\nG92 X0 Y0\nG90 G01 X5000 Y0\nG145\nX5000 Y5000\nX0 Y5000\nX0 Y
 
 
 def own(text: str, name: str = "makino") -> OwnDialect:
-    return own_profile(name, tomllib.loads(text), KeyPlaces(f"{name}.toml", text))
+    return own_dialect(name, tomllib.loads(text), KeyPlaces(f"{name}.toml", text))
 
 
 @pytest.mark.parametrize("name", PROFILES)
 def test_what_the_profiles_say_may_stand_in_a_file_of_ones_own(name: str) -> None:
     text = (FOLDER / f"{name}.toml").read_text("utf-8")
     assert replace(profile(own(text)), name=name) == profile(name)
-    assert own(own_text(own(text))) == own(text)
+    assert own(own_dialect_text(own(text))) == own(text)
     assert profile(own(f'extends = "{name}"\n')) == replace(profile(name), name="makino")
 
 
@@ -87,7 +87,7 @@ VALUES = st.one_of(
 @given(st.dictionaries(st.sampled_from([*profiles_module.Profile.__dataclass_fields__, "x"]), VALUES, max_size=3))
 def test_any_values_are_a_dialect_or_a_complaint(values: dict[str, Any]) -> None:
     try:
-        made = own_profile("makino", values, KeyPlaces("makino.toml", ""))
+        made = own_dialect("makino", values, KeyPlaces("makino.toml", ""))
     except SettingsError:
         return
     assert profile(made).name == "makino"
