@@ -5,8 +5,9 @@ A text as it is typed, read and checked with the settings that count for its fil
 
 import traceback
 from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
-from typing import Final, NamedTuple
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 import numpy as np
 
@@ -26,6 +27,9 @@ from sim.check.settings import CheckSettings
 from sim.check.settings.read import NO_SETTINGS
 from sim.check.settings.search import SettingsSearch
 from sim.check.silence.directives import chosen, sifted, without_known
+
+if TYPE_CHECKING:  # most checks know no machine
+    from sim.setup.machine.machine import Machine
 
 PARALLEL_FROM: Final = 200
 
@@ -207,9 +211,14 @@ class AsTyped(NamedTuple):
     wrong_settings: str
 
 
-def as_typed(name: str, file: Path | None, text: str) -> AsTyped:
-    """Read and check a text under a name; `file` is where it stands, None where it stands nowhere yet."""
+def as_typed(name: str, file: Path | None, text: str, machine: "Machine | None" = None) -> AsTyped:
+    """Read and check a text under a name; `file` is where it stands, None where it stands nowhere yet.
+
+    A `machine` counts in place of that of the settings near the file.
+    """
     settings, wrong = settings_near(name, file)
+    if machine is not None:
+        settings = replace(settings, machine=machine)
     # Characters keep their places: a mark of the byte order is a blank, half a pair a question mark.
     plain = f" {text[1:]}" if text.startswith(_BOM) else text
     data = plain.encode("utf-8", "replace")

@@ -126,7 +126,12 @@ DIAMETER = Key(
     form="wire_mm",
 )
 SPARK_GAP = Key(
-    "spark_gap_mm", Number(SPARK_GAP_MM, "mm", MM_AS_UM), "spark_gap_um", mm(DEFAULT_WIRE.spark_gap_um), option="--gap"
+    "spark_gap_mm",
+    Number(SPARK_GAP_MM, "mm", MM_AS_UM),
+    "spark_gap_um",
+    mm(DEFAULT_WIRE.spark_gap_um),
+    option="--gap",
+    form="gap_mm",
 )
 LAG = Key(
     "lag_um",

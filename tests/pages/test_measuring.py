@@ -33,12 +33,13 @@ class Ruler:
         box = shown.page.locator("#picture").bounding_box()
         assert box is not None
         self.box = box
-        # The path of 15 mm by 10 mm is fitted into the canvas, 7 % free on each side, less 30 px at the foot.
-        self.scale = min(box["width"] / 15.0, (box["height"] - 30.0) / 10.0) * (1.0 - 2.0 * 0.07)
+        # The path of 15 mm by 10 mm is fitted into the canvas, 7 % free on each side, less 40 px at the head and 34 px
+        # at the foot.
+        self.scale = min(box["width"] / 15.0, (box["height"] - 74.0) / 10.0) * (1.0 - 2.0 * 0.07)
 
     def at(self, x: float, y: float) -> dict[str, float]:
         middle_x = self.box["x"] + self.box["width"] / 2.0
-        middle_y = self.box["y"] + (self.box["height"] - 30.0) / 2.0
+        middle_y = self.box["y"] + 40.0 + (self.box["height"] - 74.0) / 2.0
         return {"x": middle_x + (x - 7.5) * self.scale, "y": middle_y - (y - 5.0) * self.scale}
 
     def click(self, x: float, y: float) -> None:

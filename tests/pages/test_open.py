@@ -203,10 +203,12 @@ def test_nothing_runs_out_of_the_window(
 def test_a_program_is_run_and_its_files_are_seen_and_saved(browsers: Browsers, keyhole: OpenedPage) -> None:
     with tab(browsers, keyhole.address) as shown:
         shown.waits_for("pass")
+        shown.page.click("#tab-run")
         shown.page.fill("input[name=thickness_mm]", "20")
+        shown.page.wait_for_function("() => document.querySelector('#size').textContent.includes('in 20 mm')")
         shown.page.click("#start")
         shown.page.wait_for_selector("#looks button")
-        assert shown.page.inner_text("#stage") == "pass, on DK7740 class, stepper drives"
+        assert shown.page.inner_text("#stage") == "run on DK7740 class, stepper drives"
         assert shown.page.locator("#looks button").all_inner_texts() == ["Replay", "Report"]
         assert shown.page.locator("#thumbs button").all_inner_texts() == ["the path as it will be cut"]
         names = ["cut.png", "replay.html", "report.html", "report.json"]
@@ -278,10 +280,13 @@ def test_a_run_is_cancelled_and_another_one_begun(browsers: Browsers, tmp_path: 
         shown.page.wait_for_function("() => document.querySelector('#stage').textContent === 'cancelled'")
         assert shown.page.locator("#files a").count() == 0
         shown.page.fill("#text", f"{square}DD\n")
+        shown.page.click("#tab-run")
         shown.page.fill("input[name=thickness_mm]", "a lot")
-        shown.page.click("#start")
-        shown.page.wait_for_selector("#stage.wrong")
-        assert "the thickness in mm is a number, not 'a lot'" in shown.page.inner_text("#stage")
+        assert shown.page.inner_text("#wrong") == "thickness mm: a lot is no number from 0.01 to 2000"
+        assert shown.page.is_disabled("#start")
+        shown.page.fill("input[name=thickness_mm]", "20")
+        assert shown.page.locator("#wrong").is_hidden()
+        assert shown.page.is_enabled("#start")
 
 
 def test_a_run_waits_until_the_program_has_come(browsers: Browsers, keyhole: OpenedPage) -> None:
@@ -366,6 +371,7 @@ def test_an_earlier_version_is_seen_beside_the_present_one(browsers: Browsers, t
     with opened_page(tmp_path / "part.3b") as served, tab(browsers, served.address) as shown:
         shown.waits_for("pass")
         shown.page.fill("#text", wider)
+        shown.page.click("#tab-versions")
         shown.page.select_option("#version", "opened")
         both = shown.page.locator("#both tr.other")
         both.first.wait_for()
@@ -427,5 +433,6 @@ def test_a_drawing_is_dropped_made_a_program_and_run_against(
         run = json.loads(empty.ask("progress").body)["run"]
         report = json.loads(empty.ask(f"run/{run}/report.json", method="GET").body)
         assert report["drawing"]["max_um"] < 5.0
+        shown.page.click("#tab-drawing")
         shown.page.click("#away")
         assert shown.page.locator("#drawing").is_hidden()

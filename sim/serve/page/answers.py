@@ -1,5 +1,6 @@
 """What the page is told of a program: its findings with their mends, its path in columns, its figures and its size."""
 
+from collections.abc import Iterable
 from functools import cache
 from pathlib import Path
 from typing import Any, Final, NamedTuple
@@ -12,17 +13,18 @@ from parser.findings.catalogue import LANGUAGES, Bilingual, texts
 from parser.findings.findings import Finding
 from parser.program import Program, usual_name
 from parser.shape.contours import find_contours
+from parser.shape.passes import find_passes, leads_of
 from parser.text.encoding import decode_text, encode_text, printable
 from parser.text.lines import LINE_END
-from sim.base.rounded import rounded
+from sim.base.rounded import numbers, rounded
 from sim.check.file_check import as_typed
 from sim.check.result import CheckResult
-from sim.setup.machine.machine import load_machine
+from sim.setup.machine.machine import Machine, load_machine, machine_names
 from sim.setup.scenario import DEFAULT_MACHINE
-from sim.setup.work import DEFAULT_THICKNESS_MM
+from sim.setup.work import DEFAULT_THICKNESS_MM, THICKNESS_MM
 from sim.show.replay.curve_columns import exact_columns
 from sim.show.texts import bilingual
-from sim.show.texts.phrases import lasting
+from sim.show.texts.phrases import lasting, machine_name
 
 
 class ReadFile(NamedTuple):
@@ -77,13 +79,50 @@ def _line_ends(read: ReadFile, text: str) -> list[str]:
     return [*was[:head], *between, *was[len(was) - tail :]]
 
 
-def answer(name: str, file: Path | None, text: str) -> dict[str, Any]:
+class Chosen(NamedTuple):
+    """What the form of the page chooses for its run: a shipped machine, empty for the default one, and a thickness."""
+
+    name: str = ""
+    thickness_mm: float = DEFAULT_THICKNESS_MM
+
+    @property
+    def machine(self) -> Machine | None:
+        """The machine that is chosen; the settings near a program may name another one where none is."""
+        return _machine(self.name) if self.name else None
+
+    @property
+    def feeds(self) -> Feeds:
+        """Feeds of cuts and jumps, µm/s."""
+        return _machine(self.name or DEFAULT_MACHINE).feeds(self.thickness_mm)
+
+    @property
+    def title(self) -> Bilingual:
+        """The machine's name."""
+        return machine_name(_machine(self.name or DEFAULT_MACHINE))
+
+
+USUAL: Final = Chosen()
+"""What a run has that chooses nothing."""
+
+
+def chosen(machine: str, thickness_mm: str) -> Chosen:
+    """What the texts of the form choose; what is wrong in them leaves what is usual, and is told at the form."""
+    try:
+        thickness = float(thickness_mm)
+    except ValueError:
+        thickness = DEFAULT_THICKNESS_MM
+    if not THICKNESS_MM.low <= thickness <= THICKNESS_MM.high:
+        thickness = DEFAULT_THICKNESS_MM
+    return Chosen(machine if machine in machine_names() else "", thickness)
+
+
+def answer(name: str, file: Path | None, text: str, for_run: Chosen = USUAL) -> dict[str, Any]:
     """What is found in a text, and its path; an empty name is given the usual one.
 
     `file` is where the text stands, None where nobody knows.
     """
     name = name or usual_name(text)
-    found, offsets = as_typed(name, file, text), Offsets(text)
+    found, offsets = as_typed(name, file, text, for_run.machine), Offsets(text)
     program, result = found.program, found.result
     return {
         "name": printable(name),
@@ -91,10 +130,17 @@ def answer(name: str, file: Path | None, text: str) -> dict[str, Any]:
         "verdict": "none" if result.unreadable else result.verdict,
         "settings": printable(found.wrong_settings),
         "findings": [_finding(finding, offsets) for finding in result.findings],
-        "path": _path(program, offsets) if program and len(program.toolpath) else None,
+        "path": _path(program, offsets, for_run.feeds) if program and len(program.toolpath) else None,
         "figures": _figures(program) if program and result.coverage.stepped else [],
-        "size": size_of(result),
+        "size": size_of(result, for_run),
+        "machine": for_run.title._asdict(),
     }
+
+
+def found_in(text: str, findings: Iterable[Finding]) -> list[dict[str, Any]]:
+    """Findings of a text as the page lists them."""
+    offsets = Offsets(text)
+    return [_finding(finding, offsets) for finding in findings]
 
 
 class Offsets:
@@ -126,11 +172,18 @@ def _finding(finding: Finding, offsets: Offsets) -> dict[str, Any]:
     }
 
 
-def _path(program: Program, offsets: Offsets) -> dict[str, list[Any]]:
-    """Columns of n blocks, and where each stands in the text."""
+def _path(program: Program, offsets: Offsets, feeds: Feeds) -> dict[str, list[Any]]:
+    """Columns of n blocks, and where each stands in the text; ``border_s`` has n + 1.
+
+    That is when each block begins at the feeds alone, without accelerations and stops: a run tells it exactly.
+    """
     path, source = program.toolpath, program.toolpath.source
+    passes = find_passes(path)
+    took_s = path.length_um / np.where(path.is_jump, feeds.jump_um_s, feeds.cut_um_s)
     return {
         **exact_columns(path),
+        "border_s": numbers(np.append(0.0, np.cumsum(took_s))),
+        "is_lead": (leads_of(passes, path) if passes.passes else np.zeros(len(path), dtype=np.bool_)).tolist(),
         "line": source.line.tolist(),
         "first": [offsets.of(first) for first in source.span[:, 0].tolist()],
         "past": [offsets.of(past) for past in source.span[:, 1].tolist()],
@@ -153,7 +206,7 @@ def _figures(program: Program) -> list[dict[str, Any]]:
     ]
 
 
-def size_of(result: CheckResult) -> dict[str, Any] | None:
+def size_of(result: CheckResult, for_run: Chosen = USUAL) -> dict[str, Any] | None:
     """How large a program is, lengths in µm, and about how long it takes; None where its path is not known."""
     programmed = result.programmed
     if programmed is None:
@@ -165,17 +218,17 @@ def size_of(result: CheckResult) -> dict[str, Any] | None:
         "cut_um": rounded(programmed.cut_length_um),
         "box_um": None if programmed.box_um is None else [rounded(place) for place in programmed.box_um],
         "steps": result.steps,
-        "time": _about(programmed.cut_length_um, result.length_um)._asdict(),
+        "time": _about(programmed.cut_length_um, result.length_um, for_run)._asdict(),
     }
 
 
-def _about(cut_um: float, length_um: float) -> Bilingual:
-    """How long the feeds of the default machine take, without accelerations and stops: a run tells it exactly."""
-    feeds = _usual_feeds()
+def _about(cut_um: float, length_um: float, for_run: Chosen) -> Bilingual:
+    """How long the feeds of the machine take, without accelerations and stops: a run tells it exactly."""
+    feeds, name = for_run.feeds, for_run.name or DEFAULT_MACHINE
     time_s = cut_um / float(feeds.cut_um_s) + (length_um - cut_um) / feeds.jump_um_s
-    return bilingual("open.time", time=lasting(time_s), machine=DEFAULT_MACHINE, thickness=f"{DEFAULT_THICKNESS_MM:g}")
+    return bilingual("open.time", time=lasting(time_s), machine=name, thickness=f"{for_run.thickness_mm:g}")
 
 
 @cache
-def _usual_feeds() -> Feeds:
-    return load_machine(DEFAULT_MACHINE).feeds(DEFAULT_THICKNESS_MM)
+def _machine(name: str) -> Machine:
+    return load_machine(name)

@@ -18,13 +18,14 @@ from starlette.routing import Route
 
 from parser.findings.errors import FileUnreadableError, ProgramError
 from parser.text.encoding import printable
-from sim.serve.page.answers import ReadFile, answer, file_of, read_file
+from sim.serve.page.answers import Chosen, ReadFile, answer, chosen, file_of, read_file
 from sim.serve.page.drawings import Drawings, is_drawing
 from sim.serve.page.life import Life
 from sim.serve.page.programs import Programs
 from sim.serve.page.row import row_or_why
 from sim.serve.page.run_requests import MISSING, NOTHING, BadRequestError, Drawn, Running, Work, guarded, name_of, told
 from sim.serve.page.runs import Runs
+from sim.serve.page.starts import STARTS, start
 from sim.show.open_page.page import open_page
 
 _MOST_COMPARED: Final = 2000
@@ -75,7 +76,8 @@ def app_of(programs: Programs, drawings: Drawings, life: Life, runs: Runs) -> St
     files, texts = _Files(programs, drawings, life), _Checks(programs)
     running, drawn = Running(life, runs, programs, drawings), Drawn(drawings, runs)
     works: list[Work] = [files.first, files.read, files.save, files.alive, files.close]
-    works += [files.program, files.rows, files.again, files.row, drawn.look, drawn.draft, drawn.drafted]
+    works += [files.program, files.example, files.rows, files.again, files.row]
+    works += [drawn.look, drawn.draft, drawn.drafted]
     works += [texts.check, texts.version, texts.lines, running.run, running.more, running.progress, running.cancel]
     return Starlette(
         routes=[
@@ -96,7 +98,7 @@ class _Files:
     async def page(self, _: Request) -> Response:
         """The page."""
         self._life.note_page()
-        text, policy = open_page()
+        text, policy = open_page(STARTS)
         return HTMLResponse(text, headers={"content-security-policy": policy})
 
     async def first(self, _: Request) -> Response:
@@ -117,6 +119,13 @@ class _Files:
             return Response(status_code=MISSING)
         file = self._programs.file(number)
         return JSONResponse(_read(file.name if file else "", data, number))
+
+    async def example(self, request: Request) -> Response:
+        """A file to begin with."""
+        name = (await told(request, "example"))["example"]
+        if name not in STARTS:
+            return Response(status_code=MISSING)
+        return JSONResponse(self._answer(*await run_in_threadpool(start, name)))
 
     async def rows(self, request: Request) -> Response:
         """What is known of the programs of the folder, behind those that the page knows."""
@@ -182,9 +191,10 @@ class _Checks:
         query = await told(request, "before", "after")
         return await self._lines.answered(changed_lines, query["before"], query["after"])
 
-    async def _asked(self, request: Request) -> tuple[str, Path | None, str]:
-        query = await told(request, "name", "text", "number")
-        return query["name"], self._programs.file(query["number"]), query["text"]
+    async def _asked(self, request: Request) -> tuple[str, Path | None, str, Chosen]:
+        query = await told(request, "name", "text", "number", "machine", "thickness_mm")
+        for_run = chosen(query["machine"], query["thickness_mm"])
+        return query["name"], self._programs.file(query["number"]), query["text"], for_run
 
 
 class _Last:

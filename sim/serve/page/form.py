@@ -17,7 +17,11 @@ from sim.setup.toml.keys import Key
 from sim.setup.toml.kinds import Number
 from sim.setup.toml.reader import Bound, number
 
-_NAMES: Final = {"thickness_mm": Message("name-thickness"), "wire_mm": Message("name-wire")}
+_NAMES: Final = {
+    "thickness_mm": Message("name-thickness"),
+    "wire_mm": Message("name-wire"),
+    "gap_mm": Message("name-spark-gap"),
+}
 """What the fields are called where something is wrong with them."""
 
 

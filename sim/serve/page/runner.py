@@ -21,6 +21,7 @@ from sim.jobs.drills_into import drills_into
 from sim.jobs.run_into import run_into, stages_of_files
 from sim.run.findings import verdict
 from sim.run.recording import Recording, recorded, stages_of
+from sim.serve.page.answers import found_in
 from sim.serve.page.child import PageRequest, do, telling
 from sim.serve.page.form import number_of, scenario_of
 from sim.setup.scenario import Scenario
@@ -34,6 +35,8 @@ from sim.show.pictures.gallery import PICTURES, subject_of
 from sim.show.texts.phrases import machine_name
 from sim.teach.drill import drills as drill_set
 
+_MOST_FOUND: Final = 200
+"""Findings of a run that the page lists; its report has all."""
 _FILM_PX: Final = (960, 540)
 _FILM_FPS: Final = 20
 _FILM_S: Final = Bound(0.5, 600.0)
@@ -44,8 +47,14 @@ def _run(request: PageRequest) -> dict[str, Any]:
     """Run, with the files of every run."""
     scenario = scenario_of(request, Path(request["file"]))
     progress = telling(stages_of_files(scenario, trace=False))
-    run = run_into(request["folder"], _program(request, scenario), scenario, progress)
-    return {"verdict": verdict(run.findings), "machine": machine_name(scenario.machine)._asdict()}
+    program = _program(request, scenario)
+    run = run_into(request["folder"], program, scenario, progress)
+    found = [finding for finding in run.findings if finding not in run.checked]
+    return {
+        "verdict": verdict(run.findings),
+        "machine": machine_name(scenario.machine)._asdict(),
+        "findings": found_in(program.text, found[:_MOST_FOUND]),
+    }
 
 
 def _film(request: PageRequest) -> dict[str, Any]:

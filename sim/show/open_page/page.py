@@ -1,12 +1,14 @@
 """The page of ``drycut open``."""
 
 import secrets
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Final
 
 from parser.units import mm
 from sim.setup.machine.machine import machine_names
 from sim.setup.making import LANGUAGES
+from sim.setup.part import OFFSET_MM
 from sim.setup.scenario import DEFAULT_MACHINE
 from sim.setup.settable import FIELDS
 from sim.setup.wire import DEFAULT_WIRE
@@ -18,8 +20,11 @@ _PICTURE: Final = "picture_"
 """Begins the words that say what a picture is."""
 
 
-def open_page() -> tuple[str, str]:
-    """The page, and its content security policy: its own script and style alone, and no request but to its server."""
+def open_page(starts: Sequence[str]) -> tuple[str, str]:
+    """The page, and its content security policy: its own script and style alone, and no request but to its server.
+
+    `starts` are the names of what it offers to begin with.
+    """
     nonce = secrets.token_urlsafe(16)
     page = rendered(
         _ASSETS,
@@ -29,6 +34,8 @@ def open_page() -> tuple[str, str]:
         languages=LANGUAGES,
         default_machine=DEFAULT_MACHINE,
         fields=FIELDS,
+        bounds={name: key.kind.bound for name, key in FIELDS.items()} | {"offset_mm": OFFSET_MM},
+        starts=starts,
         reach=f"{mm(DEFAULT_WIRE.reach_um):g}",
         pictures={
             name.removeprefix(_PICTURE): said._asdict()

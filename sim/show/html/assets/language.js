@@ -66,8 +66,8 @@ function ofBrowser() {
   return "en";
 }
 
-/** Name the controls in the language of the page. */
-function nameControls() {
+/** Name the controls in the language of the page: all of them, or those that were added. */
+export function nameControls() {
   const key = isChinese() ? "labelZh" : "labelEn";
   for (const control of elements("[data-label-en]")) {
     const name = control.dataset[key] ?? "";

@@ -1,5 +1,10 @@
 // What the page asks of its server: paths beside its own address, and nothing else.
 
+/**
+ * A text to be checked: its name, the number of its program, near whose file settings count, empty where it came to the
+ * page, and the machine and the thickness that the form says.
+ * @typedef {{ name: string, text: string, number: string, machine: string, thickness_mm: string }} Checked
+ */
 /** @import { Answer, Changes, Drafted, FileText, Looked, Row, Rows, RunState } from "./data.js" */
 
 /**
@@ -42,6 +47,26 @@ export async function program(number) {
 }
 
 /**
+ * A file to begin with.
+ * @param {string} name
+ * @returns {Promise<FileText>}
+ */
+export async function example(name) {
+  return (await ask("example", JSON.stringify({ example: name }))).json();
+}
+
+/**
+ * A page of a run, as its text.
+ * @param {number} number
+ * @param {string} name
+ */
+export async function pageOfRun(number, name) {
+  const answer = await window.fetch(`run/${number}/${name}`, { redirect: "error" });
+  if (!answer.ok) throw new Error(`${name}: ${answer.status}`);
+  return answer.text();
+}
+
+/**
  * The rows of the folder's programs behind those that are known.
  * @param {number} known
  * @param {number} list that they are of
@@ -81,25 +106,22 @@ export async function saved(file, text) {
 
 /**
  * What is found in a text; null where a later one was asked for meanwhile.
- * @param {string} name
- * @param {string} text
- * @param {string} number of its program, near whose file settings count; empty where it came to the page
+ * @param {Checked} asked
  * @param {AbortSignal} signal
  * @returns {Promise<Answer | null>}
  */
-export async function check(name, text, number, signal) {
-  const answer = await ask("check", JSON.stringify({ name, text, number }), signal);
+export async function check(asked, signal) {
+  const answer = await ask("check", JSON.stringify(asked), signal);
   return answer.status === 204 ? null : answer.json();
 }
 
 /**
  * What is found in a text that stays as it is.
- * @param {FileText} file
- * @param {string} text
+ * @param {Checked} asked
  * @returns {Promise<Answer>}
  */
-export async function version({ name, number }, text) {
-  return (await ask("version", JSON.stringify({ name, text, number }))).json();
+export async function version(asked) {
+  return (await ask("version", JSON.stringify(asked))).json();
 }
 
 /**

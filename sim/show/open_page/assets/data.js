@@ -60,7 +60,10 @@
  * @property {string[]} name of each block as the listing has it
  */
 
-/** @typedef {Curves & Sources & { length_um: number[] }} Path */
+/**
+ * A path: when each block begins at the machine's feeds, one more than blocks, and which of them are leads.
+ * @typedef {Curves & Sources & { length_um: number[], border_s: number[], is_lead: boolean[] }} Path
+ */
 
 /**
  * @typedef {object} Figure
@@ -92,6 +95,7 @@
  * @property {Path | null} path
  * @property {Figure[]} figures
  * @property {Size | null} size
+ * @property {Said} machine whose feeds and travel count
  */
 
 /**
@@ -155,6 +159,7 @@
  * @property {"pass" | "fail"} [verdict]
  * @property {Said} [machine]
  * @property {Said | null} [why]
+ * @property {Finding[]} [findings] that the run itself made, beyond those of the check
  * @property {MadeFile[]} [files] once it has ended well
  */
 

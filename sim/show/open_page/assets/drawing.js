@@ -58,6 +58,8 @@ export function wireDrawing(around) {
     made = []; // that was of the program before
     if (!number) return;
     const before = number;
+    seen = [language.said("stage-drawing")];
+    show();
     try {
       const found = await asked.look({ ...around.values(), ...around.current(), drawing: number });
       if (before !== number) return;
@@ -94,6 +96,7 @@ export function wireDrawing(around) {
      */
     async take(newNumber, newFile) {
       [number, file, made] = [newNumber, newFile, []];
+      element("#tab-drawing", HTMLElement).click();
       show();
       await look();
     },

@@ -44,8 +44,8 @@ export function diffOf(before, after) {
  * @param {{ go: (finding: Finding) => void, mend: (finding: Finding) => void }} on
  */
 function entryOf(finding, text, on) {
-  const places = [finding.line ? language.say("line", { line: finding.line }) : language.say("whole")];
-  if (finding.block_name) places.push(language.say("block", { block: finding.block_name }));
+  const places = [finding.line ? language.say("at-line", { line: finding.line }) : language.say("whole")];
+  if (finding.block_name) places.push(language.say("in-block", { block: finding.block_name }));
   const go = make("button", { type: "button", className: "go" }, `${places.join(" · ")} · ${finding.code} `);
   go.append(make("strong", {}, language.pick(finding.title)));
   go.addEventListener("click", () => on.go(finding));
@@ -59,6 +59,23 @@ function entryOf(finding, text, on) {
     entry.append(diffOf(before, after), mend);
   }
   return entry;
+}
+
+/**
+ * Edits of all certain mends that do not touch each other, in the order of their findings.
+ * @param {Finding[]} findings
+ */
+export function editsOfAll(findings) {
+  /** @type {Edit[]} */
+  const all = [];
+  let mended = 0;
+  for (const { edits } of findings) {
+    const isFree = edits.every(([first, past]) => all.every(([low, high]) => past < low || first > high));
+    if (!edits.length || !isFree) continue;
+    all.push(...edits);
+    mended += 1;
+  }
+  return { edits: all, mended };
 }
 
 /**

@@ -112,6 +112,7 @@ export function wireMade(ask) {
      */
     show({ state, run, files }, name) {
       box.hidden = !files;
+      element("#no-files", HTMLElement).hidden = Boolean(files);
       for (const button of buttons) button.disabled = state === "running";
       all.download = `${name}.zip`;
       if (files && run !== undefined) list(run, files);

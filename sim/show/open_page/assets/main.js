@@ -1,53 +1,85 @@
 // Puts the page together: a file comes in, its text is checked while it is edited, and what is found shows at once.
 import * as asked from "./asked.js";
-import { VERDICTS } from "./data.js";
-import { showFound } from "./found.js";
+import { wireBegin } from "./begin.js";
 import { wireDrawing } from "./drawing.js";
+import { wireFiles } from "./files.js";
+import { wireForm } from "./form.js";
+import { editsOfAll, showFound } from "./found.js";
 import { wireListing } from "./listing.js";
 import { pictureOf } from "./picture.js";
 import { wireRun } from "./running.js";
 import { showSize } from "./size.js";
+import { wireStatus, worse } from "./status.js";
 import { textOf } from "./text.js";
 import { wireVersions } from "./versions.js";
-import { element } from "../../html/assets/elements.js";
+import { wireWatching } from "./watching.js";
+import { wireTabs } from "../../replay/assets/controls.js";
+import { element, elements } from "../../html/assets/elements.js";
 import * as language from "../../html/assets/language.js";
 
 /** @import { Answer, FileText, Finding } from "./data.js" */
 
 const PAUSE_MS = 15; // between two keys of who types fast lies more; a check that is out of date is dropped
-const ALIVE_MS = 20_000;
 
 const list = element("#found", HTMLElement);
-const counts = element("#counts", HTMLElement);
 const title = element("#name", HTMLElement);
-const status = element("#status", HTMLElement);
-const picture = pictureOf(element("#picture", HTMLCanvasElement), goToBlock);
+const problem = element("#status", HTMLElement);
+const mendAll = element("#mend-all", HTMLButtonElement);
+const status = wireStatus();
+const form = wireForm((isRead) => (isRead ? recheck() : showForm()));
+const picture = pictureOf(element("#picture", HTMLCanvasElement), {
+  block: goToBlock, hover: (place, row) => watching.hover(place, row),
+});
 const text = textOf(element("#text", HTMLTextAreaElement), element("#lines", HTMLElement), (line) => {
   picture.markLine(line);
   caret = line;
   run.show();
+  watching.toLine(line);
 });
-const listing = wireListing(openOne);
+const watching = wireWatching({ picture, status, path: pathNow, findings: allFound, wire: form.wire, run: text.run, tell });
 const versions = wireVersions({
   now: () => ({ file, text: text.value, answer: known?.text === text.value ? known.answer : null }),
   under: picture.under,
   go: (version) => begin({ ...version.file, text: version.text }, false),
   goToLine: text.showLine,
+  values: ofForm,
   tell,
 });
-const run = wireRun(
-  () => ({ name: nameOf(), text: text.value, number: file.number, drawing: drawing.number(), block: blockAtCaret() }),
-  () => versions.keep("ran"), () => drawing.done(), tell,
-);
+const run = wireRun({
+  current: () => ({ name: nameOf(), text: text.value, number: file.number, drawing: drawing.number(), block: blockAtCaret() }),
+  values: form.values,
+  isRight: form.isRight,
+  onStart: () => versions.keep("ran"),
+  onDrafted: () => drawing.done(),
+  onRun,
+  tell,
+});
 const drawing = wireDrawing({
   current: () => ({ name: nameOf(), text: text.value }),
-  values: run.values,
+  values: form.values,
   follow: run.follow,
   begin: (read) => begin(read),
-  beneath: picture.beneath,
+  beneath: (curves) => {
+    picture.beneath(curves);
+    show();
+  },
   tell,
 });
-const pick = element("#pick", HTMLInputElement);
+const files = wireFiles({
+  begin,
+  draw(number, name) {
+    const taken = drawing.take(number, name);
+    show();
+    return taken;
+  },
+  list: (dropped) => listing.take(dropped),
+  unlist: () => listing.hide(),
+  current: () => ({ file, text: text.value, name: nameOf() }),
+  onSaved: () => versions.keep("saved"),
+  tell,
+});
+const listing = wireListing(files.open);
+const offer = wireBegin(files.pick, files.take, () => tell("no-server"));
 
 /** @type {FileText} */
 let file = { name: "", text: "", encoding: "utf-8", newline: "\n", number: "" };
@@ -63,7 +95,18 @@ let asking = new window.AbortController();
  * @param {Record<string, string | number>} values
  */
 function tell(key, values = {}) {
-  status.textContent = key && language.say(key, values);
+  problem.textContent = key && language.say(key, values);
+}
+
+/** What of the form the check looks at. */
+function ofForm() {
+  const { machine, thickness_mm: thickness } = form.values();
+  return { machine, thickness_mm: thickness };
+}
+
+/** The path of the text as it stands; null where it is not known. */
+function pathNow() {
+  return known?.text === text.value ? known.answer.path : null;
 }
 
 /**
@@ -76,12 +119,12 @@ function go(finding) {
 }
 
 /**
- * Make a certain mend, of the text that it was found in alone.
- * @param {Finding} finding
+ * Make certain mends, of the text that they were found in alone.
+ * @param {Finding["edits"]} edits
  */
-function mend(finding) {
+function mend(edits) {
   if (known?.text !== text.value) return;
-  text.edit(finding.edits);
+  text.edit(edits);
   later();
 }
 
@@ -96,15 +139,76 @@ function goToBlock(row) {
   else text.showLine(path.line[row]);
 }
 
+/** Findings of the check and, where the text is as it was run, those of the run, in the order of their lines. */
+function allFound() {
+  const ofCheck = known?.answer.findings ?? [];
+  return [...ofCheck, ...(run.result()?.findings ?? [])].sort((a, b) => a.line - b.line);
+}
+
 /** Show what is known, in the language of the page. */
 function show() {
-  if (!known) return;
-  const { answer } = known;
-  showFound(list, answer.findings, known.text, { go, mend });
-  showSize(element("#size", HTMLElement), element("#figures", HTMLElement), answer);
-  const verdict = language.say(VERDICTS[answer.verdict]);
-  counts.textContent = answer.dialect ? `${answer.dialect} · ${verdict}` : verdict;
-  counts.className = answer.verdict;
+  offer.show(!text.value && !drawing.number());
+  const found = allFound();
+  const { mended } = editsOfAll(found);
+  mendAll.hidden = mended < 2;
+  mendAll.textContent = language.say("mend-all", { n: mended });
+  element("#found-count", HTMLElement).textContent = found.length ? `(${found.length})` : "";
+  text.mark(found);
+  if (known) {
+    showFound(list, found, known.text, { go, mend: ({ edits }) => mend(edits) });
+    showSize(element("#size", HTMLElement), element("#figures", HTMLElement), known.answer);
+    const ran = run.result();
+    status.judge(known.answer, ran ? worse(known.answer.verdict, ran.verdict) : known.answer.verdict);
+  } else {
+    list.replaceChildren();
+    element("#sizes", HTMLElement).hidden = true;
+    status.judge(null, null);
+  }
+}
+
+/** Show what the form gives. */
+function showForm() {
+  const { reachUm } = form.wire();
+  picture.cutBy(reachUm);
+  status.cutBy(reachUm);
+  run.show();
+}
+
+/** The form says something else. */
+function recheck() {
+  versions.recheck();
+  if (text.value) check(false);
+}
+
+/**
+ * A run has ended well, or there is none any more of the text as it stands.
+ * @param {number | null} number
+ */
+function onRun(number) {
+  show();
+  picture.mark(allFound());
+  watching.take(number);
+  if (number !== null) element(run.result()?.findings.length ? "#tab-findings" : "#tab-files", HTMLElement).click();
+}
+
+/**
+ * Show what the check said of a text; null of none, with which nothing is wrong.
+ * @param {Answer | null} answer
+ * @param {string} now
+ * @param {boolean} isNew whether it is another program
+ */
+function learn(answer, now, isNew) {
+  known = answer && { answer, text: now };
+  run.show();
+  show();
+  picture.show(answer && answer.path, answer ? answer.figures : [], isNew);
+  picture.mark(allFound());
+  versions.update();
+  if (isNew || !answer) watching.play(true);
+  else watching.later();
+  if (file.why && !now) tell("not-opened", { why: language.pick(file.why) });
+  else if (answer && answer.settings) tell("settings", { why: answer.settings });
+  else tell("");
 }
 
 /**
@@ -115,17 +219,13 @@ async function check(isNew) {
   asking.abort();
   asking = new window.AbortController();
   const now = text.value;
+  if (!now) {
+    learn(null, now, isNew);
+    return;
+  }
   try {
-    const answer = await asked.check(file.name, now, file.number, asking.signal);
-    if (!answer) return;
-    known = { answer, text: now };
-    text.mark(answer.findings);
-    picture.show(answer.path, answer.figures, answer.findings, isNew);
-    show();
-    versions.update();
-    run.show();
-    if (file.why && !now) tell("not-opened", { why: language.pick(file.why) });
-    else tell(answer.settings && "settings", { why: answer.settings });
+    const answer = await asked.check({ name: file.name, text: now, number: file.number, ...ofForm() }, asking.signal);
+    if (answer) learn(answer, now, isNew);
   } catch (error) {
     if (!(error instanceof Error && error.name === "AbortError")) tell("no-server");
   }
@@ -157,35 +257,9 @@ function begin(read, isOpened = true) {
   drawing.look();
 }
 
-/**
- * Open what was dropped or picked: one file, or the list of several.
- * @param {FileList | null | undefined} chosen
- */
-async function take(chosen) {
-  const files = [...(chosen ?? [])];
-  if (files.length > 1) listing.take(files).catch(() => tell("no-server"));
-  else if (files.length && await openOne(files[0])) listing.hide();
-}
-
-/**
- * Open a program by its number, or a file; whether it could be read.
- * @param {string | File} source
- */
-async function openOne(source) {
-  try {
-    const read = typeof source === "string" ? await asked.program(source) : await asked.read(source.name, source);
-    if (read.drawing) await drawing.take(read.drawing, read.name);
-    else begin(read);
-    return true;
-  } catch {
-    tell("not-read");
-    return false;
-  }
-}
-
 /** Name of the first block in the line of the caret; empty where none is known. */
 function blockAtCaret() {
-  const path = known?.text === text.value ? known.answer.path : null;
+  const path = pathNow();
   return path?.name[path.line.indexOf(caret)] ?? "";
 }
 
@@ -194,55 +268,21 @@ function nameOf() {
   return file.name || (known?.answer.name ?? "program");
 }
 
-/** Save the text as its file was: encoding and line ends stay. */
-async function save() {
-  try {
-    const blob = await asked.saved(file, text.value);
-    const link = document.createElement("a");
-    link.href = window.URL.createObjectURL(blob);
-    link.download = nameOf();
-    link.click();
-    versions.keep("saved");
-    window.setTimeout(() => window.URL.revokeObjectURL(link.href), ALIVE_MS);
-  } catch {
-    tell("no-server");
-  }
-}
-
-/** Files come by dropping them anywhere, by the button, or as a text by pasting it. */
-function wire() {
-  window.addEventListener("dragover", (event) => event.preventDefault());
-  window.addEventListener("drop", (event) => {
-    event.preventDefault();
-    take(event.dataTransfer?.files);
-  });
-  pick.addEventListener("change", () => {
-    take(pick.files);
-    pick.value = "";
-  });
-  element("#open", HTMLElement).addEventListener("click", () => pick.click());
-  element("#save", HTMLElement).addEventListener("click", save);
-  element("#fit", HTMLElement).addEventListener("click", picture.fit);
-  element("#text", HTMLTextAreaElement).addEventListener("input", later);
-  element("#close", HTMLElement).addEventListener("click", async () => {
-    await asked.close();
-    tell("closed");
-  });
-  window.setInterval(() => asked.alive().catch(() => tell("no-server")), ALIVE_MS);
-}
-
-language.onChange(show);
-language.begin();
-wire();
-
 /**
  * Open what drycut was started with; who typed meanwhile, where that is nothing, has begun a program.
  * @param {FileText} read
  */
 function start(read) {
-  if (read.drawing) drawing.take(read.drawing, read.name);
-  else if (read.text !== "" || !text.value) begin(read);
+  if (!read.drawing && (read.text !== "" || !text.value)) begin(read);
   else title.textContent = language.say("untitled");
+  if (read.drawing) files.take(read);
 }
 
+language.onChange(show);
+language.begin();
+wireTabs(elements('[role="tab"]'));
+element("#fit", HTMLElement).addEventListener("click", picture.fit);
+element("#text", HTMLTextAreaElement).addEventListener("input", later);
+mendAll.addEventListener("click", () => mend(editsOfAll(allFound()).edits));
+showForm();
 asked.first().then(start).then(listing.look).catch(() => tell("no-server"));

@@ -1,4 +1,7 @@
-// The path: drawn whole, moved and zoomed, the block of the caret's line on top, marks where something was found.
+// The picture: the path with its kerf and numbers, what is played of it, the block of the caret's line on top, marks where
+// something was found.
+import { motionOf } from "../../replay/assets/motion.js";
+import { drawBlockMarks } from "./block_marks.js";
 import { coloursOf } from "../../replay/assets/palette.js";
 import { newView } from "../../replay/assets/view.js";
 import { pathOf } from "../../replay/assets/path.js";
@@ -6,6 +9,7 @@ import { penOf } from "../../replay/assets/pen.js";
 import { differing } from "./differing.js";
 import { wireMeasuring } from "./measuring.js";
 import { rowAt } from "./snap.js";
+import { drawAxes, drawBand, drawPlayed, drawWireOf } from "./under_path.js";
 import { drawScaleBar } from "../../replay/assets/scale_bar.js";
 import { wirePointer } from "../../replay/assets/pointer.js";
 
@@ -13,6 +17,9 @@ import { wirePointer } from "../../replay/assets/pointer.js";
 /** @import { Curves } from "../../replay/assets/document.js" */
 /** @import { Different } from "./differing.js" */
 /** @import { Path as Drawn } from "../../replay/assets/path.js" */
+/** @import { Shown } from "./playing.js" */
+
+/** @typedef {ReturnType<typeof pictureOf>} Picture */
 
 const NEAR = 12; // px from a block that still means it
 const STILL = 4; // px of a press that is a click
@@ -20,9 +27,12 @@ const STILL = 4; // px of a press that is a click
 /**
  * The picture of the page.
  * @param {HTMLCanvasElement} canvas
- * @param {(row: number) => void} onBlock told the row of a block that is clicked
+ * @param {object} on
+ * @param {(row: number) => void} on.block told the row of a block that is clicked
+ * @param {(place: [x: number, y: number] | null, row: number) => void} on.hover told where the pointer is, and over which
+ *   block; −1 over none, null where it has left
  */
-export function pictureOf(canvas, onBlock) {
+export function pictureOf(canvas, on) {
   const pen = penOf(canvas);
   const view = newView();
   /** @type {Path | null} */
@@ -40,7 +50,12 @@ export function pictureOf(canvas, onBlock) {
   let line = 0;
   let isAsked = false;
   let isFitted = false;
+  let isMoved = false; // by the user, since it was fitted
+  let reachUm = 0;
+  /** @type {Shown | null} */
+  let shown = null;
   const colours = coloursOf(later);
+  const motion = motionOf(view, later);
   const measuring = wireMeasuring(view, later);
 
   /** Draw before the next frame. */
@@ -99,7 +114,8 @@ export function pictureOf(canvas, onBlock) {
     }
   }
 
-  function draw() {
+  /** Be as large as the page makes it; how many px of the canvas a px of the page has. */
+  function resize() {
     const ratio = window.devicePixelRatio || 1;
     const [width, height] = [canvas.clientWidth, canvas.clientHeight];
     if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {
@@ -107,15 +123,34 @@ export function pictureOf(canvas, onBlock) {
       canvas.height = Math.round(height * ratio);
     }
     view.resize(width, height);
+    return ratio;
+  }
+
+  /** Draw all of it. */
+  function draw() {
+    const ratio = resize();
+    const isMoving = motion.at(false);
     pen.setTransform(ratio, 0, 0, ratio, 0, 0);
-    pen.clearRect(0, 0, width, height);
-    if (!drawn && !drawing) return;
+    pen.clearRect(0, 0, view.width, view.height);
+    if (drawn || drawing) drawAll(ratio, isMoving);
+  }
+
+  /**
+   * Draw what there is.
+   * @param {number} ratio
+   * @param {boolean} isMoving
+   */
+  function drawAll(ratio, isMoving) {
     if (!isFitted) fit();
     const shades = colours();
     pen.lineCap = "round";
     pen.lineJoin = "round";
     if (drawing) drawDrawing();
+    drawAxes(pen, view, shades);
+    if (shown?.moment.t) drawPlayed(pen, view, shown, ratio, isMoving);
+    else if (drawn) drawBand(pen, view, drawn, 2 * reachUm, shades);
     if (drawn) drawProgram(drawn, shades);
+    if (shown?.moment.t) drawWireOf(pen, view, shown, colours);
     measuring.draw(pen, shades.accent);
     drawScaleBar(pen, view, colours);
   }
@@ -136,7 +171,11 @@ export function pictureOf(canvas, onBlock) {
     if (others.below) drawRows(others.below, "--error", 3);
     pen.lineWidth = 1.5;
     pen.strokeStyle = shades.ideal;
-    program.stroke(pen, view, (kind) => kind !== "jump");
+    program.stroke(pen, view, (kind, row) => kind !== "jump" && !path?.is_lead[row]);
+    pen.lineWidth = 2;
+    pen.strokeStyle = shades.start;
+    program.stroke(pen, view, (_, row) => path?.is_lead[row] ?? false);
+    pen.lineWidth = 1.5;
     pen.strokeStyle = shades.jump;
     pen.setLineDash([6, 4]);
     program.stroke(pen, view, (kind) => kind === "jump");
@@ -147,6 +186,7 @@ export function pictureOf(canvas, onBlock) {
     pen.beginPath();
     for (const row of rowsNow()) program.wayOf(pen, view, row);
     pen.stroke();
+    if (path) drawBlockMarks(pen, view, path, program, shades);
     drawMarks();
   }
 
@@ -155,15 +195,28 @@ export function pictureOf(canvas, onBlock) {
     const boxes = [drawn, drawing].flatMap((one) => (one ? [one.box()] : []));
     if (!boxes.length) return;
     isFitted = true;
+    isMoved = false;
     const box = {
       left: Math.min(...boxes.map((one) => one.left)), bottom: Math.min(...boxes.map((one) => one.bottom)),
       right: Math.max(...boxes.map((one) => one.right)), top: Math.max(...boxes.map((one) => one.top)),
     };
     view.limitTo(box);
-    view.fit(box, { top: 0, bottom: 30 });
+    view.fit(box, { top: 40, bottom: 34 });
   }
 
-  wirePointer(canvas, view, later);
+  /** Whether something of path or drawing lies beyond the window. */
+  function isCut() {
+    const bounds = view.bounds();
+    return [drawn, drawing].some((one) => {
+      const box = one?.box();
+      return box && (box.left < bounds.left || box.right > bounds.right || box.bottom < bounds.bottom || box.top > bounds.top);
+    });
+  }
+
+  wirePointer(canvas, view, () => {
+    isMoved = true;
+    later();
+  });
   /** @type {[x: number, y: number]} */
   let pressed = [0, 0];
   canvas.addEventListener("pointerdown", (event) => { pressed = [event.clientX, event.clientY]; });
@@ -176,29 +229,61 @@ export function pictureOf(canvas, onBlock) {
       return;
     }
     const row = path && drawn ? rowAt(path, drawn, view.placeOf(x, y), NEAR / view.scale) : -1;
-    if (row >= 0) onBlock(row);
+    if (row >= 0) on.block(row);
   });
   canvas.addEventListener("pointermove", (event) => {
     const box = canvas.getBoundingClientRect();
-    if (measuring.isOn() && !event.buttons) measuring.move(event.clientX - box.left, event.clientY - box.top);
+    const [x, y] = [event.clientX - box.left, event.clientY - box.top];
+    if (measuring.isOn() && !event.buttons) measuring.move(x, y);
+    const place = view.placeOf(x, y);
+    if (drawn || drawing) on.hover(place, path && drawn ? rowAt(path, drawn, place, NEAR / view.scale) : -1);
   });
-  new ResizeObserver(later).observe(canvas);
+  canvas.addEventListener("pointerleave", () => on.hover(null, -1));
+  new ResizeObserver(() => {
+    isFitted = isFitted && isMoved;
+    later();
+  }).observe(canvas);
 
   return {
+    colours,
     /**
-     * Another path; the window stays where it is unless it is a new program.
+     * Half the width that the wire cuts, µm.
+     * @param {number} um
+     */
+    cutBy(um) {
+      reachUm = um;
+      later();
+    },
+    /**
+     * Show a moment of what is played; whether a piece falls in it.
+     * @param {Shown | null} newShown
+     */
+    at(newShown) {
+      shown = newShown;
+      draw();
+      return shown?.show.pieces?.isFalling ?? false;
+    },
+    /**
+     * Another path; the window stays where it is unless it is a new program, or what is drawn has left it.
      * @param {Path | null} newPath
      * @param {Figure[]} newFigures
-     * @param {Finding[]} newFindings
      * @param {boolean} isNew
      */
-    show(newPath, newFigures, newFindings, isNew) {
+    show(newPath, newFigures, isNew) {
       isFitted = isFitted && !isNew && path !== null;
       path = newPath;
       drawn = path && pathOf(path);
       measuring.show(path, drawn);
       others = differing(below, path);
       figures = newFigures;
+      if (isFitted && !isMoved && isCut()) isFitted = false;
+      later();
+    },
+    /**
+     * What is found: each has its mark.
+     * @param {Finding[]} newFindings
+     */
+    mark(newFindings) {
       findings = newFindings;
       later();
     },

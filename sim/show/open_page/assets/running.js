@@ -18,14 +18,17 @@ const STAGES = {
 
 /**
  * Let the form run programs; the answer tells it that the program is another one.
- * @param {() => { name: string, text: string, number: string, drawing: string, block: string }} current
+ * @param {object} page
+ * @param {() => { name: string, text: string, number: string, drawing: string, block: string }} page.current
  *   the program as it stands, and the block of the caret
- * @param {() => void} onStart
- * @param {() => void} onDrafted a program was made of a drawing
- * @param {(key: string) => void} tell says what went wrong
+ * @param {() => Record<string, string>} page.values of the form
+ * @param {() => boolean} page.isRight whether all of them can be
+ * @param {() => void} page.onStart
+ * @param {() => void} page.onDrafted a program was made of a drawing
+ * @param {(run: number | null) => void} page.onRun another run has ended well, or there is none any more
+ * @param {(key: string) => void} page.tell says what went wrong
  */
-export function wireRun(current, onStart, onDrafted, tell) {
-  const form = element("#run", HTMLElement);
+export function wireRun({ current, values, isRight, onStart, onDrafted, onRun, tell }) {
   const start = element("#start", HTMLButtonElement);
   const cancel = element("#cancel", HTMLButtonElement);
   const bar = element("#progress", HTMLProgressElement);
@@ -36,18 +39,8 @@ export function wireRun(current, onStart, onDrafted, tell) {
   /** @type {RunState} */
   let known = { state: "idle" };
   let ran = { ...NOTHING };
-
-  /**
-   * The values of the form by their names.
-   * @returns {Record<string, string>}
-   */
-  function values() {
-    const fields = form.querySelectorAll("input, select");
-    return Object.fromEntries([...fields].map((field) => {
-      if (!(field instanceof HTMLInputElement || field instanceof HTMLSelectElement)) return ["", ""];
-      return [field.name, field.value.trim()];
-    }));
-  }
+  /** @type {number | null} */
+  let told = null; // the run that was told of last
 
   /** What came of a job that has ended well. */
   function ending() {
@@ -74,18 +67,31 @@ export function wireRun(current, onStart, onDrafted, tell) {
     moment.textContent = language.say("replay-at", { block });
   }
 
-  /** Show how far the run is. */
-  function show() {
-    const isRunning = known.state === "running";
-    start.disabled = isRunning || !current().text.trim(); // a program that has not come yet is none to run
+  /**
+   * Show the buttons and how far a job is.
+   * @param {boolean} isRunning
+   */
+  function showJob(isRunning) {
+    start.disabled = isRunning || !isRight() || !current().text.trim(); // a program that has not come yet is none to run
+    start.hidden = isRunning;
     cancel.hidden = bar.hidden = !isRunning;
     bar.value = isRunning && known.of ? ((known.at ?? 0) + (known.share ?? 0)) / known.of : 0;
+  }
+
+  /** Show how far the run is. */
+  function show() {
+    showJob(known.state === "running");
     const isOther = Boolean(known.files) && current().text !== ran.text;
     said.textContent = sentence();
     if (isOther) said.append(` · ${language.say("ran-other", { name: ran.name })}`);
     said.className = known.state === "done" ? known.verdict ?? "" : known.state;
     made.show(known, ran.name);
     showMoment(isOther);
+    const run = known.files && !isOther ? known.run ?? null : null;
+    if (run !== told) {
+      told = run;
+      onRun(run);
+    }
   }
 
   /**
@@ -112,5 +118,10 @@ export function wireRun(current, onStart, onDrafted, tell) {
   });
   cancel.addEventListener("click", () => take(asked.cancel()));
   language.onChange(show);
-  return { show, values, follow: take };
+  return {
+    show,
+    follow: take,
+    /** What the run of the text as it stands came to; null where there is none. */
+    result: () => (known.files && current().text === ran.text ? { verdict: known.verdict ?? "pass", findings: known.findings ?? [] } : null),
+  };
 }

@@ -1,5 +1,5 @@
 // How large the program is, and its figures.
-import { make } from "../../html/assets/elements.js";
+import { element, make } from "../../html/assets/elements.js";
 import * as language from "../../html/assets/language.js";
 
 /** @import { Answer, Figure, Path, Size } from "./data.js" */
@@ -56,6 +56,7 @@ function figureRow(figure, number, path) {
  */
 export function showSize(list, body, { size, figures, path }) {
   const rows = size ? rowsOf(size) : [];
+  element("#sizes", HTMLElement).hidden = !size;
   list.replaceChildren(...rows.flatMap(([name, value]) => [make("dt", {}, name), make("dd", {}, value)]));
   body.replaceChildren(...figures.slice(0, MOST).map((figure, at) => figureRow(figure, at + 1, path)));
 }

@@ -1,7 +1,7 @@
 // The text of the program: lines with their numbers, the worst finding of each, and changes that can be undone.
 import { countUpTo } from "../../replay/assets/numbers.js";
 import { SEVERITIES } from "./data.js";
-import { make } from "../../html/assets/elements.js";
+import { element, make } from "../../html/assets/elements.js";
 
 /** @import { Edit, Finding } from "./data.js" */
 
@@ -39,6 +39,9 @@ function worstOf(findings) {
  * @param {(line: number) => void} onLine told the line, from 1, that the caret comes to
  */
 export function textOf(area, gutter, onLine) {
+  const bar = element("#running-line", HTMLElement);
+  let running = 0;
+
   let starts = startsOf("");
   /** @type {Map<number, number>} */
   let worst = new Map();
@@ -56,6 +59,8 @@ export function textOf(area, gutter, onLine) {
     }
     gutter.replaceChildren(...rows);
     gutter.style.transform = `translateY(${first * LINE - area.scrollTop}px)`;
+    bar.hidden = running === 0;
+    bar.style.transform = `translateY(${(running - 1) * LINE - area.scrollTop}px)`;
   }
 
   /** Tell the line of the caret where it is another one. */
@@ -114,6 +119,19 @@ export function textOf(area, gutter, onLine) {
      */
     mark(findings) {
       worst = worstOf(findings);
+      number();
+    },
+    /**
+     * Mark the line, from 1, whose block is played, and bring it to where it is seen while it plays; 0 for none.
+     * @param {number} line
+     * @param {boolean} isFollowed
+     */
+    run(line, isFollowed) {
+      if (line === running) return;
+      running = line;
+      const top = (line - 1) * LINE;
+      const isSeen = top >= area.scrollTop && top <= area.scrollTop + area.clientHeight - LINE;
+      if (line && isFollowed && !isSeen) area.scrollTop = Math.max(0, top - area.clientHeight / 3);
       number();
     },
     /**

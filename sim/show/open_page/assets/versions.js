@@ -54,9 +54,10 @@ function figuresOf({ verdict, findings, size, figures }) {
  * @param {(path: Path | null) => void} page.under shows a path under the present one
  * @param {(version: Version) => void} page.go makes a version the present one
  * @param {(line: number) => void} page.goToLine
+ * @param {() => { machine: string, thickness_mm: string }} page.values of the form, by which both are checked
  * @param {(key: string) => void} page.tell says what went wrong
  */
-export function wireVersions({ now, under, go, goToLine, tell }) {
+export function wireVersions({ now, under, go, goToLine, values, tell }) {
   const select = element("#version", HTMLSelectElement);
   const table = element("#both", HTMLElement);
   const list = element("#changes", HTMLElement);
@@ -118,7 +119,8 @@ export function wireVersions({ now, under, go, goToLine, tell }) {
     const version = chosen;
     try {
       if (version) {
-        version.answer ??= await asked.version(version.file, version.text);
+        const { name, number } = version.file;
+        version.answer ??= await asked.version({ name, number, text: version.text, ...values() });
         const found = await asked.lines(version.text, now().text);
         if (version !== chosen || !found) return;
         changes = found;
@@ -144,7 +146,7 @@ export function wireVersions({ now, under, go, goToLine, tell }) {
     select.value = "before";
     choice.hidden = true;
     choose();
-    select.scrollIntoView({ block: "center" });
+    element("#tab-versions", HTMLElement).click();
   });
   swap.addEventListener("click", () => {
     if (!chosen) return;
@@ -170,5 +172,12 @@ export function wireVersions({ now, under, go, goToLine, tell }) {
     else if (kind === "before") choice.hidden = false;
   }
 
-  return { keep, update };
+  return {
+    keep,
+    update,
+    /** Both are checked otherwise from now on. */
+    recheck() {
+      for (const version of kept.values()) version.answer = null;
+    },
+  };
 }

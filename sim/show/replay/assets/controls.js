@@ -78,9 +78,10 @@ export function actionsOf({ player, stage, quiz, page, redraw }) {
 /**
  * Have the buttons call actions; a button that was clicked leaves the keyboard to the page.
  * @param {Actions} actions
+ * @param {HTMLElement[]} buttons
  */
-export function wireButtons(actions) {
-  for (const button of elements("[data-do]")) {
+export function wireButtons(actions, buttons = elements("[data-do]")) {
+  for (const button of buttons) {
     button.addEventListener("click", (event) => {
       actions[button.dataset.do ?? ""]();
       if (event.detail > 0) button.blur();

@@ -1,5 +1,4 @@
 // Reads the document that the page hands over, and unpacks its long columns.
-import { element } from "../../html/assets/elements.js";
 import { unpacked } from "../../html/assets/packed.js";
 
 /** @import { Packed } from "../../html/assets/packed.js" */
@@ -15,11 +14,12 @@ async function columnsOf(columns) {
 }
 
 /**
- * The document of the page.
+ * The document of a page: of this one, or of another that was read.
+ * @param {ParentNode} page
  * @returns {Promise<ReplayDocument>}
  */
-export async function readDocument() {
-  const handed = JSON.parse(element("#document", HTMLElement).textContent);
+export async function readDocument(page = document) {
+  const handed = JSON.parse(page.querySelector("#document")?.textContent ?? "");
   const [blocks, plan] = await Promise.all([columnsOf(handed.blocks), columnsOf(handed.plan)]);
   return { ...handed, blocks, plan };
 }

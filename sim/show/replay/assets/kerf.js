@@ -14,6 +14,7 @@ import { newLayer } from "./layer.js";
 
 const LEAST_WIDTH = 4; // px: thinner, it would hide under the ideal path
 
+/** @typedef {ReturnType<typeof kerfOf>} Kerf */
 /** @typedef {PassPaint | null} Cut The colour in which the wire cut on its way to a sample; null where it did not. */
 
 /**
@@ -28,7 +29,7 @@ function borders(cuts) {
 
 /**
  * Kerf of a replay; `cuts` has one entry a sample.
- * @param {Samples} samples
+ * @param {Pick<Samples, "wireX" | "wireY">} samples
  * @param {Cut[]} cuts
  * @param {number} widthUm
  * @param {Colours} colours

@@ -28,7 +28,7 @@ const OWN = {
  * Whether the focused control uses a key itself.
  * @param {KeyboardEvent} event
  */
-function isOwn({ target, key }) {
+export function isOwn({ target, key }) {
   return target instanceof Element && Boolean(OWN[target.tagName]?.includes(key));
 }
 

@@ -75,7 +75,7 @@ export function pathOf(blocks) {
    * be so many times as far off as else.
    * @param {Pen} pen
    * @param {View} view
-   * @param {(kind: Kind) => boolean} isWanted
+   * @param {(kind: Kind, row: number) => boolean} isWanted
    */
   function stroke(pen, view, isWanted, coarseness = 1) {
     const [xs, ys, least] = [blocks.place_x_um, blocks.place_y_um, (LEAST * coarseness) / view.scale];
@@ -92,7 +92,7 @@ export function pathOf(blocks) {
     }
 
     boxes.visitNear(view.bounds(4), (row) => {
-      if (!isWanted(blocks.kind[row])) return;
+      if (!isWanted(blocks.kind[row], row)) return;
       const isSmall = boxes.size(row) < least;
       if (row !== past || !isSmall) drawSmall();
       if (isSmall) {

@@ -10,6 +10,8 @@ import * as words from "./words.js";
  * @import { View } from "./view.js"
  */
 
+/** @typedef {ReturnType<typeof piecesOf>} Pieces */
+
 const DROP_MS = 700;
 const DROP = 46; // px that a piece sinks
 const SHRUNK = 0.86;

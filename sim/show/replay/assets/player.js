@@ -2,8 +2,9 @@
 import { clamp, countUpTo } from "./numbers.js";
 
 /**
- * @import { Replay } from "./decode.js"
+ * @import { Blocks } from "./document.js"
  * @import { Deviation, Model } from "./model.js"
+ * @import { Way } from "./way.js"
  */
 
 /** @typedef {{ t: number, step: number, block: number }} Standing Where the replay stands; of the block its row. */
@@ -12,6 +13,12 @@ import { clamp, countUpTo } from "./numbers.js";
 /** @typedef {ReturnType<typeof playerOf>} Player */
 /** @typedef {ReturnType<Player["state"]>} PlayerState */
 /** @typedef {PlayerState & { deviation: Deviation, isAsked: boolean }} Moment What a frame shows. */
+
+/**
+ * What of a replay is played: its blocks by their steps and times, and where the steps lead.
+ * @typedef {{ doc: { blocks: Pick<Blocks, "kind" | "first_step" | "border_s"> }, steps: number, way: Pick<Way, "x" | "y"> }} Played
+ */
+/** @typedef {Pick<Model, "duration" | "stepAt" | "timeOf" | "blockAt" | "countLeft" | "stateAt">} Timed */
 
 export const SLOWEST = 0.01;
 export const FASTEST = 10000;
@@ -32,8 +39,8 @@ function roundSpeed(speed, direction) {
 
 /**
  * Player of a replay; `onChange` listeners hear of everything that is set, not of time going by.
- * @param {Replay} replay
- * @param {Model} model
+ * @param {Played} replay
+ * @param {Timed} model
  */
 export function playerOf(replay, model) {
   const { first_step: firstStep, border_s: border } = replay.doc.blocks;

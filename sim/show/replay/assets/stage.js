@@ -36,7 +36,7 @@ const STEPS_SCALE = 48; // px per µm when looking at single steps
  * @param {Replay} replay
  * @returns {Cut[]}
  */
-function cutSamples({ doc, samples }) {
+export function cutSamples({ doc, samples }) {
   const { border_s: border, kind } = doc.blocks;
   const passes = passOfRows(doc);
   let row = 0;

@@ -8,12 +8,14 @@ import { spanOf } from "./span.js";
 import * as words from "./words.js";
 
 /**
- * @import { ReplayDocument, TimedFinding } from "./document.js"
+ * @import { Blocks, ReplayDocument, TimedFinding } from "./document.js"
+ * @import { Titled } from "./words.js"
  * @import { Group } from "./groups.js"
  * @import { Colours } from "./palette.js"
  * @import { Loop, Player } from "./player.js"
  */
 
+/** @typedef {Pick<ReplayDocument, "findings" | "passes" | "stops"> & { blocks: Titled & Pick<Blocks, "border_s"> }} Lined What the line shows. */
 /** @typedef {{ bar: HTMLElement, marks: HTMLCanvasElement, cursor: HTMLElement, findings: HTMLElement, whole: HTMLElement }} Boxes */
 /**
  * @typedef {object} Listeners
@@ -34,7 +36,7 @@ const holdsMany = ({ first, past }) => past - first > 1;
  * Timeline in boxes of the page; `onSeek(t)` hears of scrubbing, `onBlock(row)` of a click on a group of
  * blocks, `onFinding(finding)` of one on a finding.
  * @param {Boxes} boxes
- * @param {ReplayDocument} doc
+ * @param {Lined} doc
  * @param {Player} player
  * @param {Colours} colours
  * @param {Listeners} listeners

@@ -6,6 +6,8 @@ import { pick, say } from "../../html/assets/language.js";
  * @import { Blocks, Finding, Piece, ReplayDocument } from "./document.js"
  */
 
+/** @typedef {Pick<Blocks, "kind" | "name" | "label" | "sweep_rad">} Titled What a block is called by. */
+
 const MINUS = "−";
 const TURNS = { 1: "NR", "-1": "SR", 0: "L" };
 
@@ -53,7 +55,7 @@ export const place = (x, y) => `X ${mm(x)}, Y ${mm(y)} mm`;
 
 /**
  * What kind a block is.
- * @param {Blocks} blocks
+ * @param {Titled} blocks
  * @param {number} row
  */
 export function kind(blocks, row) {
@@ -111,7 +113,7 @@ export function geometry(doc, row) {
 
 /**
  * Title of a block, such as “Block N18 (14 of 23) · line”.
- * @param {Blocks} blocks
+ * @param {Titled} blocks
  * @param {number} row
  */
 export function block(blocks, row) {
@@ -128,7 +130,7 @@ export const groupSize = (n) => say("group", { n: number(n) });
 
 /**
  * A group of blocks, and what a click on it does.
- * @param {Blocks} columns
+ * @param {Titled} columns
  * @param {number} first
  * @param {number} past
  */

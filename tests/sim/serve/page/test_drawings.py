@@ -86,7 +86,8 @@ def made(drawing: Path, result: Path, **values: str) -> Any:
 
 def draft(served: OpenedPage, number: str, **values: str) -> Any:
     """The state once a program of a drawing is made, or is not."""
-    told = dict.fromkeys(("machine", "thickness_mm", "wire_mm", "offset_mm", "tab_mm"), "") | {"language": "3b"}
+    told = dict.fromkeys(("machine", "thickness_mm", "wire_mm", "gap_mm", "offset_mm", "tab_mm"), "")
+    told["language"] = "3b"
     assert served.ask("draft", json.dumps({**told, "drawing": number, **values})).status == 200
     return ended(served)
 
@@ -142,7 +143,7 @@ def test_a_program_is_made_of_it_that_is_proved(served: OpenedPage, dxf: bytes) 
     made = json.loads(served.ask("drafted", json.dumps({"drawing": number})).body)
     assert (made["is_proved"], made["told"][0]) == (True, {"en": "proved", "zh": "验证通过"})
     assert made["program"]["name"] == "plate.3b"
-    asked = {"name": "plate.3b", "text": made["program"]["text"], "number": ""}
+    asked = {"name": "plate.3b", "text": made["program"]["text"], "number": "", "machine": "", "thickness_mm": ""}
     checked = json.loads(served.ask("check", json.dumps(asked)).body)
     assert checked["verdict"] == "pass"
     low_x, _, high_x, _ = checked["size"]["box_um"]
@@ -171,7 +172,7 @@ def test_what_cannot_be_made_says_why(served: OpenedPage, dxf: bytes, drawing: P
 
 
 def test_a_run_is_held_against_it(served: OpenedPage, dxf: bytes) -> None:
-    told = dict.fromkeys(("machine", "thickness_mm", "wire_mm", "offset_mm", "side"), "")
+    told = dict.fromkeys(("machine", "thickness_mm", "wire_mm", "gap_mm", "offset_mm", "side"), "")
     wrong = PUNCH.replace("10200", "10300")
     asked = {**told, "name": "part.3b", "text": wrong, "number": "", "drawing": came(served, dxf)}
     assert served.ask("run", json.dumps(asked)).status == 200
@@ -193,7 +194,7 @@ def test_a_name_leads_nowhere_and_numbers_that_are_none_get_nothing(
 ) -> None:
     number, found = came_oddly
     assert found["curves"]["kind"] == ["line"] * 4
-    told = dict.fromkeys(("name", "text", "machine", "thickness_mm", "wire_mm", "offset_mm", "side"), "")
+    told = dict.fromkeys(("name", "text", "machine", "thickness_mm", "wire_mm", "gap_mm", "offset_mm", "side"), "")
     for wrong in ("999", "-1", "", "../0", "9" * 5000):
         assert served.ask("look", json.dumps({**told, "drawing": wrong})).status == 404
         assert served.ask("drafted", json.dumps({"drawing": wrong})).status == 404

@@ -42,7 +42,8 @@ def served_page(tmp_path_factory: pytest.TempPathFactory) -> Iterator[OpenedPage
 
 
 def checked(served: OpenedPage, text: str, name: str = "part.3b", number: str = "") -> dict:
-    answer = served.ask("check", json.dumps({"name": name, "text": text, "number": number}))
+    told = {"name": name, "text": text, "number": number, "machine": "", "thickness_mm": ""}
+    answer = served.ask("check", json.dumps(told))
     assert answer.status == 200
     return json.loads(answer.body)
 
@@ -133,7 +134,8 @@ def test_halves_of_surrogate_pairs_are_answered(served: OpenedPage) -> None:
     answer = served.ask("lines", json.dumps({"before": half, "after": "DD\n"}))
     assert answer.status == 200
     assert json.loads(answer.body)["places"][0]["before"] == "B1\ufffd"
-    assert served.ask("check", json.dumps({"name": half, "text": half, "number": ""})).status == 200
+    told = dict.fromkeys(("name", "text", "number", "machine", "thickness_mm"), half)
+    assert served.ask("check", json.dumps(told)).status == 200
     saved = {"text": half, "opened": half, "encoding": "utf-8", "newline": "\n"}
     assert served.ask("save", json.dumps(saved)).body == "B1\ufffd\nDD\n".encode()
 
@@ -248,7 +250,8 @@ def test_what_cannot_be_opened_is_said(tmp_path: Path, served: OpenedPage) -> No
 
 def asked_run(served: OpenedPage, **values: str) -> dict:
     told = {"name": "part.3b", "text": "B1000B0B1000GXL1\nDD\n"}
-    told |= dict.fromkeys(("machine", "thickness_mm", "wire_mm", "offset_mm", "side", "drawing", "number"), "")
+    values_left_out = ("machine", "thickness_mm", "wire_mm", "gap_mm", "offset_mm", "side", "drawing", "number")
+    told |= dict.fromkeys(values_left_out, "")
     answer = served.ask("run", json.dumps({**told, **values}))
     assert answer.status == 200
     return json.loads(answer.body)
