@@ -43,6 +43,12 @@ _COMMON = {
     "big5": re.compile(rb"[\xa1\xa2\xa4-\xc6][\x40-\x7e\xa1-\xfe]"),
 }
 
+# Characters that UTF-8 writes in two bytes, U+0080 to U+07FF, and none in more; and two of them side by side, or one
+# that is no sign or letter of Western Europe (U+00A0 to U+00FF).
+_OF_TWO = re.compile(rb"[\xc2-\xdf][\x80-\xbf]")
+_IN_TWO_BYTES = re.compile(rb"(?:[\x00-\x7f]|[\xc2-\xdf][\x80-\xbf])*+")
+_BY_TWO = re.compile(rb"(?:[\xc2-\xdf][\x80-\xbf]){2}|[\xc4-\xdf][\x80-\xbf]")
+
 
 def decode_text(data: bytes) -> tuple[str, str]:
     """Text of a program file and the name of its encoding; `encode_text` gives the same bytes back.
@@ -103,7 +109,7 @@ def _decoded(data: bytes) -> tuple[str, str]:
                 raise ProgramError(no_program("not-text"))
             return text, encoding
     # GB18030 holds all of GBK and GB 2312; an 8-bit remark of any other code page still leaves the ASCII blocks intact.
-    for encoding in ("utf-8", *_by_common_characters(data)):
+    for encoding in (*_by_accident_utf_8(data), "utf-8", *_by_common_characters(data)):
         text = _if_lossless(data, encoding)
         if text is not None:
             return text, encoding
@@ -117,6 +123,17 @@ def _if_lossless(data: bytes, encoding: str) -> str | None:
         return text if encoding == "utf-8" or encode_text(text, encoding) == data else None
     except UnicodeError:
         return None
+
+
+def _by_accident_utf_8(data: bytes) -> list[str]:
+    """GBK, where UTF-8 fits by accident: 凸模, CD B9 C4 A3, is two of its characters, too.
+
+    UTF-8 has all Chinese characters in three bytes. Where it finds none but characters in two, and GBK finds common
+    ones alone, it is GBK; signs and letters of Western remarks, such as ± and è, stand alone between others.
+    """
+    if data.isascii() or not _IN_TWO_BYTES.fullmatch(data) or not _BY_TWO.search(data):
+        return []
+    return ["gb18030"] if all(map(_COMMON["gb18030"].fullmatch, _OF_TWO.findall(data))) else []
 
 
 def _by_common_characters(data: bytes) -> list[str]:
