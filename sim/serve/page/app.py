@@ -28,6 +28,8 @@ from sim.serve.page.runs import Runs
 from sim.serve.page.starts import STARTS, start
 from sim.show.open_page.page import open_page
 
+_AFTER_FIRST_S: Final = 1.0
+"""From the first page on: its first check is to be answered before a process for runs takes time from it."""
 _MOST_COMPARED: Final = 2000
 """Lines between the first and the last change that are told apart; of more all count as changed."""
 _MOST_PLACES: Final = 100
@@ -73,7 +75,7 @@ def _place(was: Sequence[str], now: Sequence[str], row: int) -> dict[str, Any]:
 
 def app_of(programs: Programs, drawings: Drawings, life: Life, runs: Runs) -> Starlette:
     """The application behind the guard."""
-    files, texts = _Files(programs, drawings, life), _Checks(programs)
+    files, texts = _Files(programs, drawings, life, runs), _Checks(programs)
     running, drawn = Running(life, runs, programs, drawings), Drawn(drawings, runs)
     works: list[Work] = [files.first, files.read, files.save, files.alive, files.close]
     works += [files.program, files.example, files.rows, files.again, files.row]
@@ -92,8 +94,9 @@ def app_of(programs: Programs, drawings: Drawings, life: Life, runs: Runs) -> St
 class _Files:
     """The page itself, and programs as they come to it and go from it."""
 
-    def __init__(self, programs: Programs, drawings: Drawings, life: Life) -> None:
-        self._programs, self._drawings, self._life = programs, drawings, life
+    def __init__(self, programs: Programs, drawings: Drawings, life: Life, runs: Runs) -> None:
+        self._programs, self._drawings, self._life, self._runs = programs, drawings, life, runs
+        self._warming: asyncio.Task[None] | None = None
 
     async def page(self, _: Request) -> Response:
         """The page."""
@@ -102,13 +105,18 @@ class _Files:
         return HTMLResponse(text, headers={"content-security-policy": policy})
 
     async def first(self, _: Request) -> Response:
-        """The program or drawing that is open at the start."""
+        """The program or drawing that is open at the start; a run can begin at once some moments later."""
+        self._warming = self._warming or asyncio.create_task(self._warm())
         opened = self._programs.opened
         read = self._answer(opened.name, opened.data, "0" if opened.file else "")
         if opened.why is None:
             return JSONResponse(read)
         why = {language: printable(text) for language, text in opened.why._asdict().items()}
         return JSONResponse({**read, "why": why})
+
+    async def _warm(self) -> None:
+        await asyncio.sleep(_AFTER_FIRST_S)
+        await self._runs.warm()
 
     async def program(self, request: Request) -> Response:
         """The program of a number, as its file is now."""

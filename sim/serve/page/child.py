@@ -20,12 +20,19 @@ from sim.show.terminal.printer import write
 PageRequest = dict[str, str]
 """What is asked of a job: texts by their names, of which the page says some."""
 _STDIN: Final = 0
+_AHEAD: Final = "--ahead"
+"""Argument of a process that was begun before there is a job."""
 _STEPS: Final = 100
 """Of a stage, that are told."""
 
 
-def do(jobs: Mapping[str, Callable[[PageRequest], dict[str, Any]]]) -> None:
-    """Do the job that is asked for; the last line says what came of it."""
+def do(jobs: Mapping[str, Callable[[PageRequest], dict[str, Any]]], warm_up: Callable[[], None] | None = None) -> None:
+    """Do the job that is asked for; the last line says what came of it.
+
+    A process that was begun ahead of its job warms up first.
+    """
+    if warm_up is not None and _AHEAD in sys.argv:
+        warm_up()
     query = read_request()
     try:
         _tell(done=jobs[query["job"]](query))
@@ -36,6 +43,8 @@ def do(jobs: Mapping[str, Callable[[PageRequest], dict[str, Any]]]) -> None:
 def read_request() -> Any:
     """What this process is asked for. From then on it ends when the server does, however that ends."""
     line = sys.stdin.buffer.readline()
+    if not line:  # the server ended before it had a job
+        sys.exit(1)
     threading.Thread(target=_end_with_server, daemon=True).start()
     return json.loads(line)
 
@@ -91,16 +100,32 @@ class Child:
         await self._process.wait()
         stdin.close()
 
+    @property
+    def is_alive(self) -> bool:
+        """Whether it has not ended yet."""
+        return self._process.returncode is None
+
     def end(self) -> None:
         """End it at once."""
         with contextlib.suppress(ProcessLookupError):
             self._process.kill()
 
+    async def ended(self) -> None:
+        """End one that was told nothing."""
+        self.end()
+        stdin = self._process.stdin
+        assert stdin is not None  # noqa: S101 - asked for
+        stdin.close()
+        await self._process.wait()
 
-async def begun(module: str) -> Child:
-    """A new process of a module of drycut; nothing is imported from the folder that drycut was started in."""
+
+async def begun(module: str, *, ahead: bool = False) -> Child:
+    """A new process of a module of drycut; nothing is imported from the folder that drycut was started in.
+
+    One that is begun `ahead` of its job has loaded and tried all that the job needs by the time it is told of it.
+    """
     pipe = asyncio.subprocess.PIPE
-    command = (sys.executable, "-P", "-m", module)
+    command = (sys.executable, "-P", "-m", module, *([_AHEAD] if ahead else []))
     nowhere = asyncio.subprocess.DEVNULL
     return Child(
         await asyncio.create_subprocess_exec(*command, stdin=pipe, stdout=pipe, stderr=nowhere, limit=_LONGEST_LINE)

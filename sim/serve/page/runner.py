@@ -6,6 +6,7 @@ a job; so are a film and the pictures of a run, which make it again: the same ru
 
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, Final
 
@@ -14,17 +15,18 @@ from parser.findings.catalogue import Language
 from parser.findings.errors import SettingsError
 from parser.findings.messages import Message
 from parser.program import Program, load_program, moving
-from sim.base.progress import Progress
+from sim.base.progress import Progress, silent
 from sim.check.file_check import settings_near
 from sim.check.settings import CheckSettings
 from sim.jobs.drills_into import drills_into
 from sim.jobs.run_into import run_into, stages_of_files
 from sim.run.findings import verdict
 from sim.run.recording import Recording, recorded, stages_of
+from sim.run.running import dry_run
 from sim.serve.page.answers import found_in
 from sim.serve.page.child import PageRequest, do, telling
 from sim.serve.page.form import number_of, scenario_of
-from sim.setup.scenario import Scenario
+from sim.setup.scenario import Scenario, load_scenario
 from sim.setup.toml.reader import Bound
 from sim.show.draw.sheet import SIZES_PX
 from sim.show.film.film import format_of, write_film
@@ -40,6 +42,7 @@ _MOST_FOUND: Final = 200
 _FILM_PX: Final = (960, 540)
 _FILM_FPS: Final = 20
 _FILM_S: Final = Bound(0.5, 600.0)
+_LEAST: Final = b"G21\nG92 X0 Y0\nG01 X1. Y0\nX1. Y1.\nX0 Y0\nM02\n"
 _SETS: Final = Bound(1.0, float(drill_set.MOST_SETS))
 
 
@@ -119,5 +122,11 @@ def _language(request: PageRequest) -> Language:
     return "zh" if request["language"] == "zh" else "en"
 
 
+def _warm_up() -> None:
+    """Run the least program there is: so all that a run needs is loaded, compiled loops too."""
+    scenario = replace(load_scenario(Path("least.iso")), kerf=True)
+    dry_run(moving(load_program(_LEAST, scenario.program.name, scenario.choices)), scenario, silent)
+
+
 if __name__ == "__main__":
-    do(_JOBS)
+    do(_JOBS, _warm_up)

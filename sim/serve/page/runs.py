@@ -22,6 +22,7 @@ MORE_KEYS: Final = ("job", "form", "seconds", "set", "language")
 """What it may say of a film, of pictures, or of fault drills."""
 _IDLE: Final[dict[str, Any]] = {"state": "idle"}
 _MORE: Final = ("film", "pictures", "drills")
+_RUNNER: Final = "sim.serve.page.runner"
 
 
 class Runs:
@@ -42,6 +43,8 @@ class Runs:
         self._turn = asyncio.Lock()  # two tabs may ask at the same moment
         self._asked: dict[str, str] = {}
         self._ran: dict[str, Any] = {}
+        self._is_warm = self._is_over = False
+        self._spare: Child | None = None
 
     @property
     def state(self) -> dict[str, Any]:
@@ -74,6 +77,25 @@ class Runs:
         async with self._turn:
             await self._end()
             await self._begin({**query, "job": "program"})
+
+    async def warm(self) -> None:
+        """Have a process ready for the next job from now on: it begins to compute at once."""
+        async with self._turn:
+            self._is_warm = not self._is_over
+            await self._spared()
+
+    async def end(self) -> None:
+        """End the run that is on, and the process that waits for the next one."""
+        async with self._turn:
+            self._is_warm, self._is_over = False, True
+            await self._end()
+            spare, self._spare = self._spare, None
+            if spare is not None:
+                await spare.ended()
+
+    async def _spared(self) -> None:
+        if self._is_warm and self._spare is None:
+            self._spare = await begun(_RUNNER, ahead=True)
 
     async def cancel(self) -> None:
         """End the run that is on, if one is."""
@@ -126,8 +148,15 @@ class Runs:
 
     async def _begin(self, query: dict[str, str]) -> None:
         self._state = {"state": "running", "job": query["job"], "run": self._number}
-        self._child = await begun("sim.serve.page.drafter" if query["job"] == "program" else "sim.serve.page.runner")
+        self._child = await self._worker(query["job"])
         self._following = asyncio.create_task(self._follow(self._child, query))
+
+    async def _worker(self, job: str) -> Child:
+        """A process for a job: the one that waits for it, where there is one."""
+        if job == "program":
+            return await begun("sim.serve.page.drafter")
+        spare, self._spare = self._spare, None
+        return spare if spare is not None and spare.is_alive else await begun(_RUNNER)
 
     async def _follow(self, child: Child, query: dict[str, str]) -> None:
         last: dict[str, Any] = {}
@@ -142,6 +171,7 @@ class Runs:
             self._state = {**begin, "state": "wrong", "why": _by_names(last["wrong"], query)}
         elif child is self._child:
             self._state = {**begin, "state": "wrong", "why": None}
+        await self._spared()  # now: before, it would have taken time from the job
 
 
 def _by_names(why: dict[str, str], query: dict[str, str]) -> dict[str, str]:

@@ -179,7 +179,7 @@ def serve(programs: Programs, port: int, ready: Callable[[str, Path], None]) -> 
         )
         server = _Server(config)
         way = _way_to(address, folder)
-        asyncio.run(_run(server, listening, life, lambda: ready(address.url, way), [runs.cancel, programs.end]))
+        asyncio.run(_run(server, listening, life, lambda: ready(address.url, way), [runs.end, programs.end]))
 
 
 def _way_to(address: Address, folder: Path) -> Path:

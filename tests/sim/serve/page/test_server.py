@@ -1,5 +1,6 @@
 """The server of a page: who may ask it, what it answers, and when it ends."""
 
+import asyncio
 import io
 import json
 import os
@@ -24,6 +25,7 @@ from PIL import Image
 from places import ROOT
 
 from parser.findings.errors import SettingsError
+from sim.serve.page.child import Child, begun
 from sim.serve.page.life import AWAY_S, FIRST_S, Life
 from sim.serve.page.run_requests import zipped
 from sim.serve.page.runner import _film
@@ -482,6 +484,31 @@ def test_of_earlier_runs_only_the_last_one_is_kept(tmp_path: Path) -> None:
 
     awaited(thrice())
     assert sorted(folder.name for folder in tmp_path.iterdir()) == ["2", "3"]
+
+
+def test_a_run_is_done_by_a_process_that_waited_for_it_and_the_next_one_is_ready_behind_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    begun_ahead = []
+
+    async def noted(module: str, *, ahead: bool = False) -> Child:
+        begun_ahead.append(ahead)
+        return await begun(module, ahead=ahead)
+
+    async def twice() -> None:
+        runs = Runs(tmp_path)
+        await runs.warm()
+        for _ in range(2):
+            await runs.start("part.3b", WRONG.encode(), dict.fromkeys((*KEYS, "drawing_file", "near_file"), ""))
+            while runs.state["state"] == "running":
+                await asyncio.sleep(0.02)
+            assert runs.state["verdict"] == "fail"
+        await runs.end()
+        await runs.warm()  # the server has ended: nothing is begun any more
+
+    monkeypatch.setattr("sim.serve.page.runs.begun", noted)
+    awaited(twice())
+    assert begun_ahead == [True, True, True]
 
 
 def test_the_page_is_there_before_any_engine_is_loaded() -> None:
