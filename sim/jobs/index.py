@@ -32,6 +32,8 @@ class Row(NamedTuple):
         How many there are of each code, the worst severity first, then by code.
     time_s, max_um
         How long the machine runs, and the largest deviation of the wire; None without a report.
+    drawing_um
+        Largest deviation of the edge from the drawing; None where it was held against none.
     picture
         The path that ran, small: SVG path data (`sim.show.index_page.page`); empty without a report.
     """
@@ -42,6 +44,7 @@ class Row(NamedTuple):
     findings: tuple[Count, ...] = ()
     time_s: float | None = None
     max_um: float | None = None
+    drawing_um: float | None = None
     picture: str = ""
 
 
@@ -101,6 +104,7 @@ def _program(entry: Entry) -> IndexRowEntry:
         "findings": [{"code": of.code, "severity": str(of.severity), "count": of.n} for of in row.findings],
         "time_s": row.time_s,
         "max_um": row.max_um,
+        "drawing_um": row.drawing_um,
         "folder": entry.folder,
         "from_cache": entry.from_cache,
     }

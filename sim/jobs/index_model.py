@@ -39,6 +39,7 @@ class IndexRowEntry(TypedDict):
     findings: list[FindingCountEntry]
     time_s: Size | None
     max_um: Size | None
+    drawing_um: Size | None
     folder: Text | None
     from_cache: bool
 

@@ -121,5 +121,6 @@ def _row(run: DryRun) -> Row:
         findings=counted(run.findings),
         time_s=rounded(run.ran_s),
         max_um=rounded(run.deviations.wire.max_um),
+        drawing_um=None if run.comparison is None else rounded(run.comparison.max_um),
         picture=thumbnail(run.toolpath),
     )

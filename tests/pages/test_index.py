@@ -37,9 +37,20 @@ def test_search_and_choices_leave_what_fits_and_heads_sort_it(open_page: OpenPag
     assert shown.inner_text(".count") == "rows 601–750 of 750"
 
 
+def test_what_failed_stands_first_with_how_far_it_is_off_the_drawing(open_page: OpenPage) -> None:
+    shown = open_page(shop_page(8)).page
+    words = shown.locator("tbody .word").all_inner_texts()
+    assert words == ["fail"] * 2 + ["cannot be run"] * 2 + ["pass"] * 4
+    assert shown.locator("tbody td.worst").first.inner_text().split("\n") == ["87.25 µm", "from the drawing"]
+    assert shown.locator("tbody td.worst").last.inner_text() == "5.50 µm"
+    head = shown.locator("thead tr").bounding_box()
+    assert head is not None
+    assert head["height"] < 70.0, "one line, and the unit below"
+
+
 def test_links_lead_to_the_files_of_each_program(open_page: OpenPage) -> None:
     shown = open_page(shop_page(8)).page
-    assert shown.locator("a.file").first.get_attribute("href") == "00/part%20%230%25.3b/report.html"
+    assert shown.locator("a.file").first.get_attribute("href") == "00/part%20%232%25.3b/report.html"
     assert shown.locator("tr.refused a").count() == 0
 
 

@@ -83,6 +83,7 @@ def _program(program: Mapping[str, Any], more: BesideTheIndex) -> dict[str, Any]
     return {
         **program,
         "time": "" if time_s is None else hours_text(time_s),
+        "worst_um": program["max_um"] if program["drawing_um"] is None else program["drawing_um"],
         "picture": more.picture,
         "message": more.message._asdict() if more.message.en else None,
     }

@@ -45,6 +45,15 @@ def cached(out: Path) -> list[bool]:
     return [row["from_cache"] for row in rows(out).values()]
 
 
+def test_a_program_with_a_drawing_says_how_far_it_is_off(tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    run_folder(ROOT / "scenarios" / "wrong-side", out)
+    (row,) = rows(out).values()
+    report = json.loads((out / row["folder"] / "report.json").read_bytes())
+    assert row["verdict"] == "fail"
+    assert row["drawing_um"] == report["drawing"]["max_um"] > 100.0 * row["max_um"]
+
+
 def test_files_are_those_of_each_program_alone_and_figures_those_of_its_report(tmp_path: Path) -> None:
     shop, out = make_shop(tmp_path / "shop", 1), tmp_path / "out"
     run_folder(shop, out, Processes(2), language="zh")

@@ -76,8 +76,10 @@ def test_a_field_of_the_page_gives_the_same_as_the_option(form: str) -> None:
 
 @pytest.mark.parametrize("form", FIELDS)
 def test_the_page_has_the_field_with_what_is_usual(form: str) -> None:
-    page, _ = open_page()
-    assert f'<input name="{form}" inputmode="decimal" size="5" placeholder="{FIELDS[form].default:g}">' in page
+    page, _ = open_page(())
+    low, high = kind_of(FIELDS[form]).bound
+    usual = f'inputmode="decimal" size="7" placeholder="{FIELDS[form].default:g}" data-low="{low}" data-high="{high}"'
+    assert f'<input name="{form}" {usual}>' in page
 
 
 def test_dependent_values_are_taken_all_at_once(tmp_path: Path) -> None:

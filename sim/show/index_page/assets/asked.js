@@ -2,7 +2,7 @@
 
 /** @import { Listed, Verdict } from "./data.js" */
 
-/** @typedef {"file" | "verdict" | "findings" | "time_s" | "max_um" | "cut_um"} Column */
+/** @typedef {"file" | "verdict" | "findings" | "time_s" | "worst_um" | "cut_um"} Column */
 
 /**
  * What is asked for; an empty text asks for nothing.

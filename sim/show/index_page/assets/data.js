@@ -24,6 +24,8 @@ import { element } from "../../html/assets/elements.js";
  * @property {number | null} time_s
  * @property {string} time in hours, minutes and seconds; empty where nothing ran
  * @property {number | null} max_um
+ * @property {number | null} drawing_um deviation from the drawing, where it was held against one
+ * @property {number | null} worst_um that from the drawing, else that of the wire
  * @property {string | null} folder of its files, beside the page
  * @property {boolean} from_cache
  * @property {string} picture data of an SVG path

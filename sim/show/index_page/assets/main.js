@@ -16,7 +16,7 @@ const HEADS = [
   ["verdict", "verdict", ""],
   ["findings", "findings", ""],
   ["time", "time_s", "time-unit"],
-  ["worst", "max_um", ""],
+  ["worst", "worst_um", ""],
 ];
 
 const VERDICTS = ["pass", "fail", "refused", "fault"];
@@ -61,4 +61,5 @@ for (const control of [search, verdict, code]) control.addEventListener("input",
 element("form", HTMLElement).addEventListener("submit", (event) => event.preventDefault());
 language.onChange(offer);
 language.begin();
+table.sort("verdict"); // what failed stands first
 ask();

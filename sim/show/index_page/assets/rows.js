@@ -24,9 +24,20 @@ export function rowOf(program, index) {
     make("td", { className: "verdict" }, verdict, ...kept),
     make("td", { className: "codes" }, ...codes(program.findings, index.titles)),
     figure("time", program.time || NOTHING),
-    figure("worst", program.max_um === null ? NOTHING : program.max_um.toFixed(2), program.max_um === null ? "" : "µm"),
+    worstOf(program),
   );
   return row;
+}
+
+/**
+ * How far it is off: from the drawing, where there is one.
+ * @param {Program} program
+ */
+function worstOf({ worst_um: um, drawing_um: ofDrawing }) {
+  if (um === null) return figure("worst", NOTHING);
+  const cell = figure("worst", um.toFixed(2), "µm");
+  if (ofDrawing !== null) cell.append(make("span", { className: "aside" }, ...both(said("of-drawing"))));
+  return cell;
 }
 
 /**

@@ -10,7 +10,7 @@ import { sorted } from "./asked.js";
 /** @typedef {[name: string, column: Column | null, unit: string]} Head of a column, by which the table may be sorted */
 
 const MOST_ROWS = 200;
-const WORST_FIRST = new Set(["verdict", "findings", "time_s", "max_um", "cut_um"]);
+const WORST_FIRST = new Set(["verdict", "findings", "time_s", "worst_um", "cut_um"]);
 
 /**
  * The table in its place.
