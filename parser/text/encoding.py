@@ -126,7 +126,7 @@ def _if_lossless(data: bytes, encoding: str) -> str | None:
 
 
 def _by_accident_utf_8(data: bytes) -> list[str]:
-    """GBK, where UTF-8 fits by accident: 凸模, CD B9 C4 A3, is two of its characters, too.
+    """GBK, where UTF-8 fits by accident: the word for a punch, CD B9 C4 A3, is two of its characters, too.
 
     UTF-8 has all Chinese characters in three bytes. Where it finds none but characters in two, and GBK finds common
     ones alone, it is GBK; signs and letters of Western remarks, such as ± and è, stand alone between others.
