@@ -72,6 +72,11 @@ class Finding(NamedTuple):
         return self.graver or CODES[self.code].severity
 
     @property
+    def spoils(self) -> bool:
+        """Whether it is a warning to look at before the cut: the part is scrap where that was not meant so."""
+        return self.severity is Severity.WARNING and CODES[self.code].spoils
+
+    @property
     def block_name(self) -> str:
         """What people call its block; empty where no one block is meant."""
         return self.names.get(self.block, str(self.block)) if self.block else ""

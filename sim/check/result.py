@@ -16,6 +16,8 @@ from parser.text.encoding import narrow
 from sim.check.programmed import Programmed
 
 Verdict = Literal["pass", "fail", "incomplete"]
+Outcome = Literal["pass", "to-check", "fail", "incomplete"]
+"""A verdict as people are told it: a file that passes is to be checked by one where a finding may spoil the part."""
 FailOn = Literal["error", "incomplete", "warning"]
 """The mildest that fails a file: errors; also checks that did not come to their end; also warnings."""
 State = Literal["complete", "incomplete", "known", "not asked"]
@@ -178,6 +180,16 @@ class CheckResult:
         if any(self.fails(finding.severity) for finding in self.findings):
             return "fail"
         return "pass" if self.coverage.is_as_known else "incomplete"
+
+    @property
+    def to_check(self) -> bool:
+        """Whether it passes, and someone has to look at a finding before the cut."""
+        return self.verdict == "pass" and any(finding.spoils for finding in self.findings)
+
+    @property
+    def outcome(self) -> Outcome:
+        """Its verdict as people are told it."""
+        return "to-check" if self.to_check else self.verdict
 
 
 _NEAR = 40

@@ -34,6 +34,8 @@ class Row(NamedTuple):
         How long the machine runs, and the largest deviation of the wire; None without a report.
     drawing_um
         Largest deviation of the edge from the drawing; None where it was held against none.
+    to_check
+        Whether it passes, and someone has to look at a finding before the cut.
     picture
         The path that ran, small: SVG path data (`sim.show.index_page.page`); empty without a report.
     """
@@ -45,6 +47,7 @@ class Row(NamedTuple):
     time_s: float | None = None
     max_um: float | None = None
     drawing_um: float | None = None
+    to_check: bool = False
     picture: str = ""
 
 
@@ -85,6 +88,7 @@ def _counts(entries: Sequence[Entry]) -> CountsEntry:
         "programs": len(entries),
         "pass": verdicts["pass"],
         "fail": verdicts["fail"],
+        "to_check": sum(entry.row.to_check for entry in entries),
         "refused": verdicts["refused"],
         "fault": verdicts["fault"],
         "from_cache": sum(entry.from_cache for entry in entries),
@@ -100,6 +104,7 @@ def _program(entry: Entry) -> IndexRowEntry:
         "file": entry.file,
         "title": row.title,
         "verdict": row.verdict,
+        "to_check": row.to_check,
         "message": row.message.en or None,
         "findings": [{"code": of.code, "severity": str(of.severity), "count": of.n} for of in row.findings],
         "time_s": row.time_s,

@@ -11,6 +11,7 @@ CountsEntry = TypedDict(
         "programs": Count,
         "pass": Count,
         "fail": Count,
+        "to_check": Count,
         "refused": Count,
         "fault": Count,
         "from_cache": Count,
@@ -35,6 +36,7 @@ class IndexRowEntry(TypedDict):
     file: Text
     title: str
     verdict: Annotated[str, one_of("pass", "fail", "refused", "fault")]
+    to_check: bool
     message: str | None
     findings: list[FindingCountEntry]
     time_s: Size | None

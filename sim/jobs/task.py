@@ -17,7 +17,7 @@ from sim.base.workers.makers import Maker, refuse_other_makers
 from sim.jobs.index import Row
 from sim.jobs.run_into import FILES, run_into
 from sim.run.dryrun import DryRun
-from sim.run.findings import verdict
+from sim.run.findings import to_check, verdict
 from sim.setup.scenario import Scenario
 from sim.show.index_page.page import thumbnail
 from sim.show.texts.phrases import same
@@ -121,6 +121,7 @@ def _row(run: DryRun) -> Row:
         findings=counted(run.findings),
         time_s=rounded(run.ran_s),
         max_um=rounded(run.deviations.wire.max_um),
+        to_check=to_check(run.findings),
         drawing_um=None if run.comparison is None else rounded(run.comparison.max_um),
         picture=thumbnail(run.toolpath),
     )

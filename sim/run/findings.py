@@ -1,7 +1,7 @@
 """The verdict on a run, and findings on it as a whole: what its scenario expects of the report, which has it not."""
 
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Literal
 
 from parser.findings.catalogue import TO
@@ -15,6 +15,16 @@ _LONGEST_SHOWN = 80
 def verdict(findings: Iterable[Finding]) -> Literal["pass", "fail"]:
     """``fail`` where any finding is an error, else ``pass``."""
     return "fail" if any(finding.severity is Severity.ERROR for finding in findings) else "pass"
+
+
+def to_check(findings: Sequence[Finding]) -> bool:
+    """Whether none is an error, and someone has to look at one of them before the cut."""
+    return verdict(findings) == "pass" and any(finding.spoils for finding in findings)
+
+
+def outcome(findings: Sequence[Finding]) -> Literal["pass", "to-check", "fail"]:
+    """The verdict as people are told it."""
+    return "to-check" if to_check(findings) else verdict(findings)
 
 
 def expectation_findings(missed: Iterable[Missed]) -> list[Finding]:

@@ -28,7 +28,7 @@ from sim.measure.passes.figures import PassFigures
 from sim.measure.passes.stock import Stock
 from sim.measure.threadings import Threading, threadings
 from sim.run.dryrun import DryRun, assumptions_of
-from sim.run.findings import verdict
+from sim.run.findings import to_check, verdict
 from sim.run.report.drawing import comparison_document
 from sim.run.report.drawing_model import ComparisonEntry
 from sim.run.report.figures import deviation_entries, ended_entry, limit_entry, loss_entry, offset_entry
@@ -167,6 +167,7 @@ def build_report(run: DryRun) -> ReportDocument:
         "schema": "drycut.report/1",
         "drycut": __version__,
         "verdict": verdict(run.findings),
+        "to_check": to_check(run.findings),
         "program": {
             "name": run.program.name,
             "title": scenario.title,

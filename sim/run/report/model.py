@@ -244,6 +244,7 @@ class ReportDocument(TypedDict):
     schema: Literal["drycut.report/1"]
     drycut: Version
     verdict: Judgement
+    to_check: bool
     program: ProgramEntry
     machine: MachineEntry
     assumptions: AssumptionsEntry

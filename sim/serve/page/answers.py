@@ -127,7 +127,7 @@ def answer(name: str, file: Path | None, text: str, for_run: Chosen = USUAL) -> 
     return {
         "name": printable(name),
         "dialect": result.dialect,
-        "verdict": "none" if result.unreadable else result.verdict,
+        "verdict": "none" if result.unreadable else result.outcome,
         "settings": printable(found.wrong_settings),
         "findings": [_finding(finding, offsets) for finding in result.findings],
         "path": _path(program, offsets, for_run.feeds) if program and len(program.toolpath) else None,

@@ -18,7 +18,7 @@ from sim.show.texts.phrases import same
 def row_of(name: str, file: Path | None, data: bytes) -> dict[str, Any]:
     """The row of a file's bytes, whatever they hold; `file` is where they stand, None where nobody knows.
 
-    Lengths are µm. ``verdict`` is pass, incomplete, fail, or refused where there is no program.
+    Lengths are µm. ``verdict`` is pass, to-check, incomplete, fail, or refused where there is no program.
     """
     try:
         read = read_file(data)
@@ -28,7 +28,7 @@ def row_of(name: str, file: Path | None, data: bytes) -> dict[str, Any]:
     if result.unreadable:
         return _row(name, "refused", result.findings, _message(result.findings[0]))
     size = size_of(result)
-    row = _row(name, result.verdict, result.findings)
+    row = _row(name, result.outcome, result.findings)
     if program is not None and len(program.toolpath) and size is not None:
         row |= {"picture": thumbnail(program.toolpath), "cut_um": size["cut_um"], "box_um": size["box_um"]}
     return row

@@ -20,7 +20,7 @@ from sim.check.file_check import settings_near
 from sim.check.settings import CheckSettings
 from sim.jobs.drills_into import drills_into
 from sim.jobs.run_into import run_into, stages_of_files
-from sim.run.findings import verdict
+from sim.run.findings import outcome
 from sim.run.recording import Recording, recorded, stages_of
 from sim.run.running import dry_run
 from sim.serve.page.answers import found_in
@@ -54,7 +54,7 @@ def _run(request: PageRequest) -> dict[str, Any]:
     run = run_into(request["folder"], program, scenario, progress)
     found = [finding for finding in run.findings if finding not in run.checked]
     return {
-        "verdict": verdict(run.findings),
+        "verdict": outcome(run.findings),
         "machine": machine_name(scenario.machine)._asdict(),
         "findings": found_in(program.text, found[:_MOST_FOUND]),
     }

@@ -44,6 +44,7 @@ def _file(result: CheckResult, language: Language) -> FileEntry:
         "dialect": result.dialect or None,
         "assumptions": [assumption.entry(language) for assumption in result.assumptions],
         "verdict": result.verdict,
+        "to_check": result.to_check,
         "settings_file": result.settings_file or None,
         "silenced": _silenced(result.silenced),
         "coverage": _coverage(result.coverage, language),
@@ -132,6 +133,7 @@ def _totals(totals: Totals) -> TotalsEntry:
             "pass": totals.files["pass"],
             "fail": totals.files["fail"],
             "incomplete": totals.files["incomplete"],
+            "to_check": totals.to_check,
         },
         "findings": {
             "error": severities[Severity.ERROR],

@@ -99,6 +99,7 @@ class FileEntry(TypedDict):
     dialect: DialectName | None
     assumptions: list[AssumptionEntry]
     verdict: CheckVerdict
+    to_check: bool
     settings_file: Text | None
     silenced: SilencedEntry
     coverage: CoverageEntry
@@ -115,6 +116,7 @@ FileCountsEntry = TypedDict(
         "pass": Count,
         "fail": Count,
         "incomplete": Count,
+        "to_check": Count,
     },
 )
 

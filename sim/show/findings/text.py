@@ -125,7 +125,7 @@ def _outcome(result: CheckResult, options: Options) -> Iterator[str]:
     """
     head = f"{printable(result.name)}: {verdict(result, options.language)}{Words(options.language)('findings.stop')}"
     for line in wrapped(printable(reach(result, options.language)), options.width, head, _INDENT):
-        yield _styled(line, COLOURS[result.verdict], options)
+        yield _styled(line, COLOURS[result.outcome], options)
     reasons_lines = [] if result.unreadable else reasons(result.coverage.checks, options.language)
     hidden = silenced(result.silenced, (result.settings_file,), options.language)
     for text in filter(None, [read_as(result, options.language), *reasons_lines, hidden]):

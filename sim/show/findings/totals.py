@@ -5,7 +5,7 @@ from collections.abc import Iterable, Iterator
 from typing import get_args
 
 from parser.findings.codes import Severity
-from sim.check.result import CheckResult, Silenced, Verdict
+from sim.check.result import CheckResult, Outcome, Silenced, Verdict
 
 BLOCKS = ("found", "read", "decoded", "stepped")
 
@@ -19,6 +19,7 @@ class Totals:
 
     def __init__(self) -> None:
         self.files: Counter[str] = Counter()
+        self.to_check = 0
         self.counts: Counter[tuple[str, Severity]] = Counter()
         self.blocks: Counter[str] = Counter()
         self.checks: defaultdict[str, Counter[str]] = defaultdict(Counter)
@@ -34,9 +35,10 @@ class Totals:
             self._add(result)
             yield result
 
-    def by_verdict(self) -> dict[Verdict, int]:
-        """Files of each verdict."""
-        return {verdict: self.files[verdict] for verdict in get_args(Verdict)}
+    def by_outcome(self) -> dict[Outcome, int]:
+        """Files of each outcome."""
+        counts = {**self.files, "pass": self.files["pass"] - self.to_check, "to-check": self.to_check}
+        return {outcome: counts.get(outcome, 0) for outcome in get_args(Outcome)}
 
     def by_severity(self) -> dict[Severity, int]:
         """Findings of each severity, the worst first."""
@@ -61,6 +63,7 @@ class Totals:
 
     def _add(self, result: CheckResult) -> None:
         self.files[result.verdict] += 1
+        self.to_check += result.to_check
         self.counts.update((finding.code, finding.severity) for finding in result.findings)
         self.blocks.update({name: getattr(result.coverage, name) for name in BLOCKS})
         for check in result.coverage.checks:

@@ -30,7 +30,7 @@ def verdict(result: CheckResult, language: Language) -> str:
     """``fail: 2 errors, 1 not shown``."""
     say = Words(language)
     found = _findings({severity: result.count(severity) for severity in Severity}, result.silenced, language)
-    return say("findings.colon").join(filter(None, (say(f"findings.{result.verdict}"), found)))
+    return say("findings.colon").join(filter(None, (say(f"findings.{result.outcome}"), found)))
 
 
 def reach(result: CheckResult, language: Language) -> str:
@@ -121,7 +121,7 @@ def _blocks(read: Coverage, language: Language) -> str:
 def verdicts(totals: Totals, language: Language) -> str:
     """``1 pass, 2 fail``: files by verdict, those there are."""
     say = Words(language)
-    parts = (f"{count} {say(f'findings.{verdict}')}" for verdict, count in totals.by_verdict().items() if count)
+    parts = (f"{count} {say(f'findings.{outcome}')}" for outcome, count in totals.by_outcome().items() if count)
     return say("findings.comma").join(parts)
 
 

@@ -84,6 +84,7 @@ def _program(program: Mapping[str, Any], more: BesideTheIndex) -> dict[str, Any]
         **program,
         "time": "" if time_s is None else hours_text(time_s),
         "worst_um": program["max_um"] if program["drawing_um"] is None else program["drawing_um"],
+        "verdict": "to-check" if program["to_check"] else program["verdict"],
         "picture": more.picture,
         "message": more.message._asdict() if more.message.en else None,
     }

@@ -34,7 +34,7 @@ from sim.cut.pieces.pieces import Piece
 from sim.run.course import Happening, PassOf, course_of, passes_of
 from sim.run.dryrun import DryRun
 from sim.run.ending import Ending
-from sim.run.findings import verdict
+from sim.run.findings import outcome
 from sim.run.outlines import simpler
 from sim.run.recording import Recording
 from sim.setup.obstacles import Outline
@@ -308,7 +308,7 @@ def replay_document(recording: Recording) -> ReplayDocument:
         "drycut": __version__,
         "title": scenario.title,
         "provenance": scenario.provenance,
-        "verdict": verdict(run.findings),
+        "verdict": outcome(run.findings),
         "duration_s": course.duration_s,
         "program": _program(run.program),
         "machine": scenario.machine.name,

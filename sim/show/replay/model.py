@@ -5,7 +5,6 @@ from typing import Annotated, Literal, TypedDict
 from parser.documents.fields import (
     AxisName,
     CurveName,
-    Judgement,
     Point,
     SaidEntry,
     SeverityName,
@@ -248,7 +247,7 @@ class ReplayDocument(TypedDict):
     drycut: Version
     title: str
     provenance: str
-    verdict: Judgement
+    verdict: Literal["pass", "to-check", "fail"]
     duration_s: float
     program: ProgramEntry
     machine: str

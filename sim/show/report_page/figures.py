@@ -9,7 +9,7 @@ from parser.findings.codes import Severity
 from parser.findings.findings import Finding
 from parser.units import mm, mm_text
 from sim.run.dryrun import DryRun
-from sim.run.findings import verdict
+from sim.run.findings import outcome
 from sim.run.report.model import ReportDocument
 from sim.show.report_page.tables import reached
 from sim.show.texts import bilingual
@@ -76,10 +76,14 @@ def time_figures(report: ReportDocument) -> list[Figure]:
 def _first(run: DryRun) -> Bilingual:
     if not run.findings:
         return bilingual("report.nothing-found")
-    if verdict(run.findings) == "pass":
+    reached = outcome(run.findings)
+    if reached == "pass":
         return bilingual("report.no-error", counts=_counts(run.findings))
-    first = next(finding for finding in run.findings if finding.severity is Severity.ERROR)
+    is_to_check = reached == "to-check"
+    first = next(of for of in run.findings if (of.spoils if is_to_check else of.severity is Severity.ERROR))
     title = Bilingual(*(texts(first, language).title for language in LANGUAGES))
+    if is_to_check:
+        return bilingual("report.why-to-check", counts=_counts(run.findings), code=first.code, title=title)
     key = "report.why-failed-in" if first.block else "report.why-failed"
     return bilingual(key, counts=_counts(run.findings), code=first.code, title=title, block=first.block_name)
 

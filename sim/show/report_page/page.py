@@ -19,6 +19,7 @@ from parser.text.encoding import encode_text
 from sim.base.workers.makers import Maker, versions
 from sim.cut.pieces.pieces import Pieces
 from sim.run.dryrun import DryRun
+from sim.run.findings import outcome
 from sim.run.recording import NO_PIECES
 from sim.run.report.model import ReportDocument
 from sim.setup.dialect import OWN_SUFFIX
@@ -220,8 +221,8 @@ def report_page(
         title=run.scenario.title,
         program=run.program.name,
         inline=inline,
-        verdict=report["verdict"],
-        verdict_word=bilingual(f"report.{report['verdict']}"),
+        verdict=outcome(run.findings),
+        verdict_word=bilingual(f"report.{outcome(run.findings)}"),
         why=why(run),
         granted=taken_for_granted(run),
         figures=key_figures(run, report),

@@ -11,18 +11,19 @@ from sim.show.terminal.wrap import wrapped
 from sim.show.texts import Words
 
 _MOST: Final = 20
-_COUNTED: Final = ("pass", "fail", "refused", "fault", "from_cache")
+_COUNTED: Final = ("pass", "to_check", "fail", "refused", "fault", "from_cache")
 
 
 def print_batch(index: Mapping[str, Any], output: Path, language: Language) -> None:
     """Print what came of a shop: the programs that did not pass, counts, and where the index is."""
     tell = Words(language)
-    bad = [program for program in index["programs"] if program["verdict"] != "pass"]
+    bad = [program for program in index["programs"] if program["verdict"] != "pass" or program["to_check"]]
     for program in bad[:_MOST]:
-        verdict = tell(f"batch.verdict-{program['verdict']}")
+        outcome = "to-check" if program["to_check"] else program["verdict"]
+        verdict = tell(f"batch.verdict-{outcome}")
         told_text = tell("batch.bad", file=program["file"], verdict=verdict, why=_why(program))
         for line in wrapped(told_text, indent="    "):
-            say(styled(line, COLOURS["fail"]))
+            say(styled(line, COLOURS.get(outcome, COLOURS["fail"])))
     if len(bad) > _MOST:
         say(tell("batch.more", n=f"{len(bad) - _MOST:,}"))
     counts = index["counts"]
@@ -34,11 +35,11 @@ def print_batch(index: Mapping[str, Any], output: Path, language: Language) -> N
 
 
 def _why(program: Mapping[str, Any]) -> str:
-    """Why a program does not pass: the message, or its errors by code."""
-    return program["message"] or ", ".join(_errors(program))
+    """Why a program does not pass, or is to be checked: the message, or its errors or warnings by code."""
+    return program["message"] or ", ".join(_codes(program, "warning" if program["to_check"] else "error"))
 
 
-def _errors(program: Mapping[str, Any]) -> Iterator[str]:
+def _codes(program: Mapping[str, Any], severity: str) -> Iterator[str]:
     for found in program["findings"]:
-        if found["severity"] == "error":
+        if found["severity"] == severity:
             yield found["code"] if found["count"] == 1 else f"{found['code']} ×{found['count']:,}"

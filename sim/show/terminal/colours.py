@@ -14,6 +14,7 @@ COLOURS: Final[Mapping[str, str]] = {
     "pass": "green",
     "fail": "red",
     "incomplete": "yellow",
+    "to-check": "yellow",
 }
 _CODES: Final = {"bold": "1", "dim": "2", "red": "31", "green": "32", "yellow": "33", "cyan": "36"}  # ECMA-48, SGR
 # A mark that no file can hold: it is drawn when the process starts, and the printer takes it out of each line.

@@ -19,7 +19,7 @@ from sim.cut.pieces.pieces import Piece
 from sim.measure.deviation.deviation import Where
 from sim.measure.passes.figures import PassFigures
 from sim.run.dryrun import DryRun
-from sim.run.findings import verdict
+from sim.run.findings import outcome
 from sim.setup.key_words import value_word
 from sim.show.assumptions import taken_for_granted
 from sim.show.terminal.colours import COLOURS, painted, styled
@@ -147,7 +147,7 @@ def print_summary(run: DryRun, output: Path | None, language: Language = "en") -
     _print_findings(run, output, language)
     gap = {"en": " ", "zh": ""}[language]  # Chinese has no blank behind a full stop
     paragraph(gap.join(getattr(sentence, language) for sentence in taken_for_granted(run)), "dim")
-    reached = verdict(run.findings)
+    reached = outcome(run.findings)
     say(styled(Words(language)(f"summary.verdict-{reached}"), f"bold {COLOURS[reached]}"))
 
 

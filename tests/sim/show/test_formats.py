@@ -250,7 +250,7 @@ def test_json_holds_what_was_found() -> None:
     assert finding["values"] == dict(AXIS.values)
     assert finding["edits"] == [{"first": 22, "past": 24, "text": "GY"}]
     assert value["totals"]["codes"] == {"3B102": 1, "3B204": 1, "3B205": 1}
-    assert value["totals"]["files"] == {"checked": 3, "pass": 1, "fail": 1, "incomplete": 1}
+    assert value["totals"]["files"] == {"checked": 3, "pass": 1, "fail": 1, "incomplete": 1, "to_check": 0}
     assert value["totals"]["length_um"] == round(3 * 62204.1234567, 6)
     states = [check["state"] for check in value["files"][1]["coverage"]["checks"]]
     assert states == [check.state for check in CHECKS]

@@ -13,7 +13,7 @@
  */
 
 /** @type {Record<Verdict, number>} */
-const WORST = { pass: 0, incomplete: 1, refused: 2, fault: 3, fail: 4 };
+const WORST = { pass: 0, "to-check": 1, incomplete: 2, refused: 3, fault: 4, fail: 5 };
 const WEIGHT = { error: 1e8, warning: 1e4, note: 1 };
 
 /**

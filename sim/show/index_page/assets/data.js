@@ -3,7 +3,7 @@ import { element } from "../../html/assets/elements.js";
 
 /** @import { Said } from "../../html/assets/language.js" */
 
-/** @typedef {"pass" | "incomplete" | "fail" | "refused" | "fault"} Verdict incomplete of a check alone */
+/** @typedef {"pass" | "to-check" | "incomplete" | "fail" | "refused" | "fault"} Verdict incomplete of a check alone */
 
 /**
  * Findings of one code.
@@ -21,6 +21,7 @@ import { element } from "../../html/assets/elements.js";
  * @property {Verdict} verdict
  * @property {Said | null} message why there is no report
  * @property {Found[]} findings the worst first
+ * @property {boolean} to_check
  * @property {number | null} time_s
  * @property {string} time in hours, minutes and seconds; empty where nothing ran
  * @property {number | null} max_um

@@ -19,7 +19,7 @@ const HEADS = [
   ["worst", "worst_um", ""],
 ];
 
-const VERDICTS = ["pass", "fail", "refused", "fault"];
+const VERDICTS = ["pass", "to-check", "fail", "refused", "fault"];
 
 const index = readIndex();
 const texts = index.programs.map(searched);

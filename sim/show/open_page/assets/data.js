@@ -89,7 +89,7 @@
  * @typedef {object} Answer
  * @property {string} name
  * @property {string} dialect
- * @property {"pass" | "incomplete" | "fail" | "none"} verdict
+ * @property {"pass" | "to-check" | "incomplete" | "fail" | "none"} verdict
  * @property {string} settings why the settings near its file do not count; else empty
  * @property {Finding[]} findings
  * @property {Path | null} path
@@ -156,7 +156,7 @@
  * @property {number} [at]
  * @property {number} [of]
  * @property {number} [share]
- * @property {"pass" | "fail"} [verdict]
+ * @property {"pass" | "to-check" | "fail"} [verdict]
  * @property {Said} [machine]
  * @property {Said | null} [why]
  * @property {Finding[]} [findings] that the run itself made, beyond those of the check
@@ -167,5 +167,5 @@ export const SEVERITIES = /** @type {const} */ (["error", "warning", "note"]);
 
 /** Words of the verdicts. */
 export const VERDICTS = {
-  pass: "verdict-pass", fail: "verdict-fail", incomplete: "verdict-incomplete", none: "verdict-none",
+  pass: "verdict-pass", "to-check": "verdict-to-check", fail: "verdict-fail", incomplete: "verdict-incomplete", none: "verdict-none",
 };

@@ -23,7 +23,7 @@ const HEADS = [
   ["extent", null, ""], ["cut", "cut_um", ""],
 ];
 const VERDICTS = {
-  pass: SAID.pass, incomplete: SAID.incomplete, fail: SAID.fail, refused: SAID.none, fault: "fault",
+  pass: SAID.pass, "to-check": SAID["to-check"], incomplete: SAID.incomplete, fail: SAID.fail, refused: SAID.none, fault: "fault",
 };
 
 /**

@@ -45,7 +45,7 @@ export function wireRun({ current, values, isRight, onStart, onDrafted, onRun, t
   /** What came of a job that has ended well. */
   function ending() {
     if (known.job === "program") return language.say("drafted");
-    return language.say(known.verdict === "pass" ? "ran-pass" : "ran-fail", { machine: known.machine ? language.pick(known.machine) : "" });
+    return language.say(known.verdict === "fail" ? "ran-fail" : "ran-pass", { machine: known.machine ? language.pick(known.machine) : "" });
   }
 
   /** What there is to say of the run. */

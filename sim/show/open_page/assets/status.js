@@ -12,7 +12,7 @@ import * as words from "../../replay/assets/words.js";
 /** @typedef {Answer["verdict"]} Verdict */
 
 /** From the worst to the best. @type {Verdict[]} */
-const WORST = ["none", "fail", "incomplete", "pass"];
+const WORST = ["none", "fail", "incomplete", "to-check", "pass"];
 
 /**
  * The worse of two verdicts.

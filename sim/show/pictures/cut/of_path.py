@@ -16,7 +16,7 @@ from parser.toolpath import Toolpath
 from parser.units import from_mm, mm
 from sim.check.compensation.words import compensation_of, is_known
 from sim.check.pass_over_round import Offsetting
-from sim.run.findings import verdict
+from sim.run.findings import outcome
 from sim.run.prepare import checked_for, prepare
 from sim.setup.scenario import Scenario
 from sim.show.draw.sheet import AnyCanvas, Sheet
@@ -44,7 +44,7 @@ def note_of(toolpath: Toolpath, offset: Offsetting | None, findings: Sequence[Fi
     """Verdict, blocks, length of the path, how long it `ran`, and its offset, in one line."""
     count = len(toolpath)
     parts = [
-        say(f"findings.{verdict(findings)}"),
+        say(f"findings.{outcome(findings)}"),
         say("cut.blocks_1" if count == 1 else "cut.blocks", count=count),
         f"{mm(float(toolpath.length_um.sum())):.1f} mm",
         ran,

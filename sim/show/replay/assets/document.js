@@ -19,7 +19,7 @@
  * @property {string} drycut
  * @property {string} title
  * @property {string} provenance
- * @property {"pass" | "fail"} verdict
+ * @property {"pass" | "to-check" | "fail"} verdict
  * @property {number} duration_s
  * @property {Program} program
  * @property {string} machine
