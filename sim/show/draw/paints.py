@@ -47,6 +47,9 @@ class Paint(StrEnum):
     STEPS = "steps"
     STEPS_PALE = "steps-pale"
     CONTOUR = "contour"
+    DRAWING = "drawing"
+    OVERCUT = "overcut"
+    LEFT_OVER = "left-over"
     JUMP = "jump"
     START = "start"
     END = "end"
@@ -96,6 +99,9 @@ LIGHT: Final[Theme] = {
     Paint.STEPS: (158, 50, 120),
     Paint.STEPS_PALE: (238, 208, 227),
     Paint.CONTOUR: (158, 50, 120),
+    Paint.DRAWING: (74, 106, 20),
+    Paint.OVERCUT: (214, 40, 40),
+    Paint.LEFT_OVER: (20, 80, 200),
     Paint.JUMP: (213, 94, 0),
     Paint.START: (0, 138, 101),
     Paint.END: (158, 50, 120),
@@ -142,6 +148,9 @@ DARK: Final[Theme] = {
     Paint.STEPS: (230, 150, 205),
     Paint.STEPS_PALE: (92, 48, 78),
     Paint.CONTOUR: (230, 150, 205),
+    Paint.DRAWING: (170, 210, 96),
+    Paint.OVERCUT: (255, 92, 84),
+    Paint.LEFT_OVER: (92, 140, 255),
     Paint.JUMP: (250, 150, 60),
     Paint.START: (70, 200, 160),
     Paint.END: (230, 150, 205),

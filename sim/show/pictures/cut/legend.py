@@ -27,6 +27,7 @@ from sim.show.draw.legend import (
 from sim.show.draw.paints import Paint, paint_of_pass, tones_of
 from sim.show.pictures.cut.flags import draw_flag, places_um
 from sim.show.pictures.cut.marks import draw_end, draw_number, draw_pause, draw_start, number_size, pauses
+from sim.show.pictures.cut.off_drawing import off_entries
 from sim.show.pictures.cut.outlines import draw_clamp, draw_work
 from sim.show.pictures.cut.subject import Cut
 from sim.show.texts import Words
@@ -72,6 +73,7 @@ def entries(cut: Cut, page: Page, say: Words, seen: Surroundings, drawn: Drawn) 
         (True, Entry(stroke(Paint.IDEAL, style.IDEAL_WIDTH), say(path))),
         (cut.contour, Entry(stroke(Paint.CONTOUR, style.CONTOUR_WIDTH), say("cut.contour"))),
         (cut.trace, Entry(stroke(Paint.ACTUAL, style.ACTUAL_WIDTH), say("cut.actual"))),
+        *((True, entry) for entry in off_entries(cut.off, page, say)),
         (cut.toolpath.is_jump.any(), Entry(dashes(Paint.JUMP, style.JUMP_WIDTH), say("cut.jump"))),
         (True, Entry(_arrow, say("cut.direction"))),
         (True, Entry(lambda canvas, box, unit: draw_start(canvas, middle(box), unit), say("cut.start"))),

@@ -110,10 +110,14 @@ def _runs_px(points_um: Floats, row: Ints, left_out: Bools, view: View) -> list[
     return [simplify(view.to_px(run), CHORD_PX) for run in cut_runs(points_um, row, left_out)]
 
 
-def draw_lines(canvas: Canvas, unit: float, lines: Lines, kerf_px: float) -> None:
-    """Draw all lines, the kerf `kerf_px` wide below them."""
+def draw_kerf(canvas: Canvas, lines: Lines, kerf_px: float) -> None:
+    """Draw the kerf, `kerf_px` wide, which lies below all lines."""
     for band in lines.kerf:
         canvas.polyline(band.way, band.paint, kerf_px)
+
+
+def draw_lines(canvas: Canvas, unit: float, lines: Lines) -> None:
+    """Draw all lines but the kerf."""
     strokes = (
         (lines.contour, Paint.CONTOUR, style.CONTOUR_WIDTH * unit),
         (lines.actual, Paint.ACTUAL, style.ACTUAL_WIDTH * unit),

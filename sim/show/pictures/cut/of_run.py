@@ -4,6 +4,7 @@ from sim.cut.pieces.pieces import Pieces
 from sim.run.dryrun import DryRun
 from sim.show.draw.sheet import AnyCanvas, Sheet
 from sim.show.pictures.cut.of_path import bodies_of, note_of, travel_um
+from sim.show.pictures.cut.off_drawing import off_drawing
 from sim.show.pictures.cut.picture import draw_cut
 from sim.show.pictures.cut.shapes import Shapes
 from sim.show.pictures.cut.subject import Cut
@@ -34,4 +35,5 @@ def cut_of_run(run: DryRun, pieces: Pieces | None, say: Words) -> Cut:
         sizes=None if run.remains is None else run.remains.sizes,
         findings=run.findings,
         travel_um=travel_um(run.toolpath, scenario),
+        off=None if run.comparison is None else off_drawing(run.comparison),
     )

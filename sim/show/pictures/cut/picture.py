@@ -20,8 +20,9 @@ from sim.show.draw.simplify import simplify
 from sim.show.pictures.cut.areas import Areas, draw_areas, draw_labels
 from sim.show.pictures.cut.flags import draw_flags, flag_reach, flags_of
 from sim.show.pictures.cut.legend import Drawn, Surroundings, draw_legends, entries, finding_entries, rows_for
-from sim.show.pictures.cut.lines import Lines, draw_lines, path_bounds_um, shown_bounds_um
+from sim.show.pictures.cut.lines import Lines, draw_kerf, draw_lines, path_bounds_um, shown_bounds_um
 from sim.show.pictures.cut.marks import draw_arrows, draw_ends, draw_numbers, draw_pauses
+from sim.show.pictures.cut.off_drawing import draw_off
 from sim.show.pictures.cut.outlines import clamps_on, draw_bodies, works_on
 from sim.show.pictures.cut.shapes import Shapes
 from sim.show.pictures.cut.size_lines import Extents, draw_extents, draw_rounds, extents_of
@@ -118,7 +119,7 @@ def _thumbnail(sheet: Sheet[AnyCanvas], cut: Cut, shapes: Shapes) -> AnyCanvas:
     page = page_for(shown_bounds_um(cut), sheet.width_px, _BARE, _THUMBNAIL)
     canvas, lines = sheet.page(page.height_px), shapes.lines(cut, page.view)
     _draw_below(canvas, page, cut, shapes.areas(cut, page.view))
-    draw_lines(canvas, page.unit, lines, kerf_px(cut, page))
+    _draw_cut_lines(canvas, page, cut, lines, kerf_px(cut, page))
     _draw_marks(Board(canvas, page, _room(page, lines, [], []), sheet.say), cut, texts=False)
     return canvas
 
@@ -133,7 +134,7 @@ def _full(sheet: Sheet[AnyCanvas], cut: Cut, shapes: Shapes) -> AnyCanvas:
     names = draw_axes(canvas, page)
     if seen.travel and cut.travel_um is not None:
         draw_border(canvas, page, cut.travel_um)
-    draw_lines(canvas, page.unit, lines, seen.kerf_px)
+    _draw_cut_lines(canvas, page, cut, lines, seen.kerf_px)
     sized = [*layout.extents.lines(page)] if layout.extents else []
     drawn = _draw_above(Board(canvas, page, _room(page, lines, sized, names), say), cut, layout)
     draw_legends(canvas, page, entries(cut, page, say, seen, drawn), layout.codes)
@@ -170,6 +171,14 @@ def kerf_px(cut: Cut, page: Page) -> float:
 def _draw_head(canvas: Canvas, page: Page, say: Words, cut: Cut, lines: Lines) -> None:
     width = 0.0 if cut.travel_um is None else draw_table(canvas, page, say, cut.travel_um, lines.ideal)
     draw_header(canvas, page.unit, cut.title, cut.note, beside_px=width)
+
+
+def _draw_cut_lines(canvas: Canvas, page: Page, cut: Cut, lines: Lines, kerf_width_px: float) -> None:
+    """Draw the kerf, over it where the edge is off the drawing, and over that the path and the way of the wire."""
+    draw_kerf(canvas, lines, kerf_width_px)
+    if cut.off is not None:
+        draw_off(canvas, page, cut.off)
+    draw_lines(canvas, page.unit, lines)
 
 
 def _draw_below(canvas: Canvas, page: Page, cut: Cut, areas: Areas) -> None:

@@ -10,6 +10,7 @@ from parser.toolpath import Toolpath
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.labels import Room
 from sim.show.draw.layout import Page
+from sim.show.pictures.cut.off_drawing import OffDrawing
 from sim.show.pictures.cut.outlines import Bodies
 from sim.show.texts import Words
 
@@ -48,6 +49,8 @@ class Cut(NamedTuple):
         What is wrong.
     travel_um
         The box that the table can reach, (2, 2): lowest and highest (x, y).
+    off
+        Where the edge is off the drawing that it was held against; None where it is nowhere, or there is none.
     """
 
     toolpath: Toolpath
@@ -63,6 +66,7 @@ class Cut(NamedTuple):
     sizes: "Sizes | None" = None
     findings: Sequence[Finding] = ()
     travel_um: Floats | None = None
+    off: OffDrawing | None = None
 
 
 class Board(NamedTuple):

@@ -1,0 +1,67 @@
+"""What is drawn of a cut that is off its drawing: strips as wide as it is off, or so many times as wide as it says."""
+
+import numpy as np
+import pytest
+import shapely
+from recorder import Recorder, recording_sheet
+from runs import scenario_run
+
+from sim.run.dryrun import DryRun
+from sim.run.recording import pieces_of_run
+from sim.show.draw.paints import Paint
+from sim.show.pictures.cut.of_run import cut_of_run, draw_cut_of_run
+from sim.show.pictures.cut.off_drawing import OffDrawing, off_drawing
+from sim.show.pictures.cut.picture import layout_of
+
+
+@pytest.fixture(name="wrong", scope="module")
+def run_on_the_wrong_side() -> DryRun:
+    return scenario_run("wrong-side")
+
+
+def off_of(run: DryRun) -> OffDrawing:
+    assert run.comparison is not None
+    found = off_drawing(run.comparison)
+    assert found is not None
+    return found
+
+
+def test_places_lie_on_the_edge_and_their_feet_on_the_drawing(wrong: DryRun) -> None:
+    off = off_of(wrong)
+    # The scenario is an opening of 10 mm by 6 mm with corners of 1 mm, about the origin: in closed form.
+    outline = shapely.box(-4000, -2000, 4000, 2000).buffer(1000.0, quad_segs=2048).exterior
+    assert shapely.distance(outline, shapely.points(off.foot_um)).max() < 0.2
+    away = np.hypot(*(off.edge_um - off.foot_um).T)
+    assert away == pytest.approx(shapely.distance(outline, shapely.points(off.edge_um)), abs=0.3)
+    assert wrong.comparison is not None
+    assert off.most_um == pytest.approx(wrong.comparison.edge_max_um, abs=0.3)
+    assert set(off.side.tolist()) == {-1}, "the wire cut into the plate all round"
+
+
+def test_a_cut_that_is_as_drawn_has_none() -> None:
+    comparison = scenario_run("die").comparison
+    assert comparison is not None
+    assert off_drawing(comparison) is None
+
+
+def test_strips_are_filled_to_scale_where_that_is_seen(wrong: DryRun) -> None:
+    canvas = drawn(wrong)
+    assert "cut too deep" in canvas.texts
+    sheet = recording_sheet()
+    px_per_um = layout_of(sheet, cut_of_run(wrong, pieces_of_run(wrong), sheet.say)).page.view.px_per_um
+    area_px = sum(shapely.Polygon(call.at[0]).area for call in canvas.of("region", Paint.OVERCUT))
+    # 0.2 mm all round an opening of 10 mm by 6 mm with corners of 1 mm: 2 (8 + 4) + 2 π 1.1 along its middle.
+    assert area_px / px_per_um**2 == pytest.approx(200.0 * (24_000.0 + 2 * np.pi * 1100.0), rel=0.02)
+
+
+def test_what_is_too_thin_to_be_seen_is_drawn_wider_and_says_so(wrong: DryRun) -> None:
+    off = off_of(wrong)
+    thin = off._replace(edge_um=off.foot_um + 0.02 * (off.edge_um - off.foot_um))
+    sheet = recording_sheet()
+    page = layout_of(sheet, cut_of_run(wrong, None, sheet.say)).page
+    assert (off.times_in(page), thin.times_in(page)) == (1, 20)
+    assert thin.most_um * page.view.px_per_um * 20 >= 7.0 * page.unit
+
+
+def drawn(run: DryRun) -> Recorder:
+    return draw_cut_of_run(recording_sheet(), run, pieces_of_run(run))
