@@ -14,6 +14,7 @@ from parser.text.encoding import printable
 from parser.units import from_mm
 from sim.setup.dialect import READ_WITH, chosen_dialect
 from sim.setup.expectations import EXPECT, Expectation, expect_section, read_expectation
+from sim.setup.job_sheet import SHEET, JobFields
 from sim.setup.machine.controller_model import INTERPOLATOR
 from sim.setup.machine.machine import Machine, load_machine
 from sim.setup.making import LayerWish, ToMake
@@ -85,6 +86,8 @@ class Scenario:
     to_make
         How its program is made of its drawing; None where there is no more to it than the file. A file that stands
         there is what runs all the same.
+    sheet
+        What a shop writes on the sheet of the job.
     expect
         What the scenario promises of its report; checked after the run.
     machine_by_default
@@ -112,6 +115,7 @@ class Scenario:
     density_g_cm3: float = DEFAULT_DENSITY_G_CM3
     quiz: tuple[Question, ...] = ()
     to_make: ToMake | None = None
+    sheet: JobFields = JobFields()  # noqa: RUF009 - frozen
     expect: tuple[Expectation, ...] = ()
     machine_by_default: bool = field(default=False, compare=False)
 
@@ -183,7 +187,7 @@ TOP = Section(
     ),
     form="top",
 )
-SECTIONS = (TOP, WIRE, WORK, OFFSET, PASS, DRAWING, PROGRAM, LAYER, CLAMPS, QUIZ, EXPECT)
+SECTIONS = (TOP, WIRE, WORK, SHEET, OFFSET, PASS, DRAWING, PROGRAM, LAYER, CLAMPS, QUIZ, EXPECT)
 """Sections of a scenario file."""
 
 
@@ -220,6 +224,7 @@ def load_scenario(path: Path | str) -> Scenario:
         drawing=drawing,
         to_make=to_make,
         quiz=read_quiz(content, where),
+        sheet=JobFields(**SHEET.read_in(content, where)),
         expect=read_expectation(section(content, "expect", where), f"{where}: [expect]"),
         machine_by_default="machine" not in content,
         **value,

@@ -11,6 +11,8 @@ from sim.run.dryrun import DryRun
 from sim.run.recording import NO_PIECES
 from sim.run.report.model import ReportDocument
 from sim.run.report.run_model import ThreadPointEntry
+from sim.setup.job_sheet import SHEET
+from sim.setup.key_words import words_of
 from sim.setup.work import DEFAULT_DENSITY_G_CM3
 from sim.show.report_page.findings import ShownFinding, gravest_findings
 from sim.show.report_page.tables import Column, ReportTable, called, column_of, counted, millimetres, reached, timed
@@ -49,6 +51,8 @@ class Sheet(NamedTuple):
     ----------
     facts
         Machine, work, wire, offset, passes, length, time, pieces and what they weigh.
+    by_hand
+        What a shop writes on the sheet, empty where it is left to be filled in.
     threads, threads_more
         The first thread points, and how many more there are.
     findings, findings_more
@@ -56,6 +60,7 @@ class Sheet(NamedTuple):
     """
 
     facts: Sequence[Fact]
+    by_hand: Sequence[Fact]
     threads: Sequence[Thread]
     threads_more: int
     findings: Sequence[ShownFinding]
@@ -68,6 +73,9 @@ def sheet_of(run: DryRun, report: ReportDocument, pieces: Pieces) -> Sheet:
     gravest = gravest_findings(run, _MOST_FINDINGS)
     return Sheet(
         facts=list(_facts(run, report, pieces)),
+        by_hand=[
+            Fact(words_of(SHEET, key).name, same(getattr(run.scenario.sheet, key.name) or "")) for key in SHEET.keys
+        ],
         threads=[_thread(entry, run.block_names) for entry in threads[:MOST_THREADS]],
         threads_more=max(len(threads) - MOST_THREADS, 0),
         findings=gravest,
