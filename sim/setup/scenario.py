@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from parser.dialect.choices import Choices, ChosenDialect, Registers, merged
+from parser.findings.catalogue import Bilingual, Language
 from parser.findings.errors import FileUnreadableError, SettingsError
 from parser.findings.messages import system_message
 from parser.program import suffixes
@@ -52,8 +53,8 @@ class Scenario:
 
     Attributes
     ----------
-    title
-        Title line of pictures and tables.
+    title, title_zh
+        Title line of pictures and tables, and the same in Chinese where that is another one.
     program
         Program file.
     machine, wire, thickness_mm
@@ -115,6 +116,7 @@ class Scenario:
     density_g_cm3: float = DEFAULT_DENSITY_G_CM3
     quiz: tuple[Question, ...] = ()
     to_make: ToMake | None = None
+    title_zh: str | None = None
     sheet: JobFields = JobFields()  # noqa: RUF009 - frozen
     expect: tuple[Expectation, ...] = ()
     machine_by_default: bool = field(default=False, compare=False)
@@ -124,6 +126,15 @@ class Scenario:
         for name, bound in _BOUNDS.items():
             number(getattr(self, name), bound, name)
         self.wire.lag_um(self.thickness_mm)
+
+    @property
+    def titles(self) -> Bilingual:
+        """Its title in both languages."""
+        return Bilingual(self.title, self.title_zh or self.title)
+
+    def title_in(self, language: Language) -> str:
+        """Its title in a language."""
+        return self.titles.zh if language == "zh" else self.title
 
     @property
     def choices(self) -> Choices:
@@ -174,6 +185,7 @@ TOP = Section(
     "scenario",
     (
         Key("title", Name(), default=None),
+        Key("title_zh", Name(), default=None),
         Key("provenance", Text(), default="not given"),
         Key("program", FileName(), default=_usual_names()[0], get=_plain_program),
         Key("machine", Text(), default=DEFAULT_MACHINE, get=lambda _: MACHINE_FILE),

@@ -240,7 +240,7 @@ class Screen:
         look, layout, unit = self._look, self.layout, self.layout.unit
         canvas = Plate(look.width_px, look.height_px, self._theme)
         head, size = layout.head, style.TITLE * unit
-        title = elide(canvas, self._course.run.scenario.title, size, head.right - head.left)
+        title = elide(canvas, self._course.run.scenario.title_in(look.language), size, head.right - head.left)
         canvas.text((head.left, 0.42 * (head.top + head.bottom)), title, size, Paint.INK)
         if layout.is_wide:
             box = layout.panel._replace(top=self._panel.foot)

@@ -52,7 +52,9 @@ def _write_svg(file: Path, name: str, drawable: Drawable, sheet: Sheet[Svg], wid
     """Write a picture as SVG that is shown `width_px` wide; False where there is none."""
     svg = drawable.draw(name, sheet)
     if svg is not None:
-        file.write_text(svg.document(label(name, drawable.title, sheet.language), width_px), encoding="utf-8")
+        file.write_text(
+            svg.document(label(name, drawable.title_in(sheet.language), sheet.language), width_px), encoding="utf-8"
+        )
     return svg is not None
 
 

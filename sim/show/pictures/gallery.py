@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from typing import Final, NamedTuple, Protocol
 
+from parser.findings.catalogue import Language
 from sim.run.dryrun import DryRun
 from sim.run.recording import Recording
 from sim.show.draw import style
@@ -30,10 +31,9 @@ class Subject(NamedTuple):
     samples: Samples
     shapes: Shapes
 
-    @property
-    def title(self) -> str:
-        """Title of the run."""
-        return self.recording.run.scenario.title
+    def title_in(self, language: Language) -> str:
+        """Title of the run in a language."""
+        return self.recording.run.scenario.title_in(language)
 
     def least_px(self, name: str) -> int:
         """How narrow a picture can be."""

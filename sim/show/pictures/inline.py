@@ -40,7 +40,7 @@ def inline_pictures(subject: Subject, progress: Progress) -> list[Inline]:
 def _inline(name: str, subject: Subject) -> Inline:
     """A picture in both languages; in none where the run has nothing to show there."""
     drawn = {language: subject.draw(name, drawing(WIDTH_PX, language=language)) for language in LANGUAGES}
-    svg = {key: svg.fragment(label(name, subject.title, key)) for key, svg in drawn.items() if svg is not None}
+    svg = {key: svg.fragment(label(name, subject.title_in(key), key)) for key, svg in drawn.items() if svg is not None}
     return Inline(name, _sharing(name, svg) if svg else svg)
 
 

@@ -2,6 +2,7 @@
 
 from typing import Final, NamedTuple
 
+from parser.findings.catalogue import Language
 from sim.show.draw import style
 from sim.show.draw.sheet import AnyCanvas, Sheet
 from sim.show.pictures.cut.of_path import Programmed, draw_path
@@ -17,10 +18,9 @@ class PathAlone(NamedTuple):
 
     programmed: Programmed
 
-    @property
-    def title(self) -> str:
-        """Title of its scenario."""
-        return self.programmed.scenario.title
+    def title_in(self, language: Language) -> str:
+        """Title of its scenario in a language."""
+        return self.programmed.scenario.title_in(language)
 
     def least_px(self, name: str) -> int:
         """How narrow the picture can be: it has a thumbnail."""

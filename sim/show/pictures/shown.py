@@ -10,9 +10,8 @@ from sim.show.texts import Words
 class Drawable(Protocol):
     """What pictures are drawn of."""
 
-    @property
-    def title(self) -> str:
-        """What people call it."""
+    def title_in(self, language: Language) -> str:
+        """What it is called in a language."""
 
     def least_px(self, name: str) -> int:
         """How narrow a picture can be."""

@@ -280,8 +280,13 @@ _ASSETS = Path(__file__).with_name("assets")
 def replay_page(recording: Recording) -> str:
     """HTML of ``replay.html`` for a recorded run."""
     tones = tones_of(each for each, _ in passes_of(recording.run))
-    document, machine = _handed_over(replay_document(recording)), machine_name(recording.run.scenario.machine)
-    values = {"document": document, "machine": machine, "tones": tones}
+    scenario = recording.run.scenario
+    values = {
+        "document": _handed_over(replay_document(recording)),
+        "machine": machine_name(scenario.machine),
+        "titles": scenario.titles,
+        "tones": tones,
+    }
     return rendered(_ASSETS, "replay.html.j2", **values, keys=OF_PAGE, actions=actions_of(OF_PAGE))
 
 

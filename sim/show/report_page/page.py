@@ -85,6 +85,7 @@ def setting_groups(scenario: Scenario, program: Program) -> list[SettingGroup]:
     named, *of_machine = machine_sections(scenario.machine)
     settings = {setting.key: setting for setting in (*_settings(whole), *_settings(named))}
     del settings["machine"], settings["name"]  # shown by its own sections, and beside the time
+    settings.pop("title_zh", None)  # the head has it
     settings.pop("program", None)  # shown by its name alone
     read = (
         settings.pop("title"),
@@ -218,7 +219,7 @@ def report_page(
     return rendered(
         _ASSETS,
         "report.html.j2",
-        title=run.scenario.title,
+        title=run.scenario.titles,
         program=run.program.name,
         inline=inline,
         verdict=outcome(run.findings),

@@ -140,7 +140,7 @@ _LEAST_UM = 0.005  # shown as 0.00
 
 def print_summary(run: DryRun, output: Path | None, language: Language = "en") -> None:
     """Print the figures of a run, its findings and its verdict to stdout."""
-    figures = table(run.scenario.title)
+    figures = table(run.scenario.title_in(language))
     for row in summary_rows(run, language):
         figures.add_row(*row)
     show(figures)

@@ -106,7 +106,7 @@ def cut_of_path(path: Programmed, say: Words) -> Cut:
     return Cut(
         toolpath=toolpath,
         kerf_um=scenario.wire.kerf_um if has_kerf else 0.0,
-        title=scenario.title,
+        title=scenario.title_in(say.language),
         note=note_of(toolpath, path.offset, path.findings, ran, say),
         passes=passes if has_kerf and any(pass_.number > 1 for pass_ in passes.passes) else None,
         leads=(passes.of_row < 0) & ~toolpath.is_jump if has_kerf else None,

@@ -25,7 +25,7 @@ def cut_of_run(run: DryRun, pieces: Pieces | None, say: Words) -> Cut:
     return Cut(
         toolpath=run.toolpath,
         kerf_um=scenario.wire.kerf_um,
-        title=scenario.title,
+        title=scenario.title_in(say.language),
         note=note_of(run.toolpath, run.offset, run.findings, getattr(lasting(run.ran_s), say.language), say),
         trace=run.cut,
         passes=run.passes if run.has_trims else None,

@@ -28,7 +28,7 @@ def titled(sheet: Sheet[AnyCanvas], samples: Samples, title: str, height_px: flo
     if sheet.width_px < style.LEAST_WIDTH:
         raise ValueError(f"a picture is at least {style.LEAST_WIDTH} px wide, not {sheet.width_px}")
     canvas = sheet.page(round(height_px))
-    scenario = samples.run.scenario.title
+    scenario = samples.run.scenario.title_in(sheet.language)
     draw_header(canvas, sheet.unit, f"{title} · {scenario}", note or figures_text(sheet.say, samples))
     return canvas
 

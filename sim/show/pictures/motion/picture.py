@@ -188,7 +188,7 @@ def draw_motion(sheet: Sheet[AnyCanvas], run: DryRun) -> AnyCanvas:
     legend = legend_of(run, marks, say, sheet.width_px, unit)
     layout = _layout(sheet, run.has_trims + bool(marks), legend.foot)
     canvas = sheet.page(layout.height)
-    draw_header(canvas, unit, run.scenario.title, _note(run, say))
+    draw_header(canvas, unit, run.scenario.title_in(say.language), _note(run, say))
     time = _time_of(run)
     charts = _draw_panels(canvas, layout, run, time, sheet)
     draw_blocks(canvas, charts[0], run, time.unit_s)

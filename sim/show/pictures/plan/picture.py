@@ -9,6 +9,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
+from parser.findings.catalogue import Language
 from parser.geometry.curves import Curves, Floats
 from parser.units import mm
 from sim.make.cam.model import CutPlan, FigureCut
@@ -227,9 +228,8 @@ class PlanShown(NamedTuple):
 
     plan: CutPlan
 
-    @property
-    def title(self) -> str:
-        """Name of the drawing."""
+    def title_in(self, language: Language) -> str:
+        """Name of the drawing, the same in each language."""
         return self.plan.drawing.name
 
     def least_px(self, name: str) -> int:
