@@ -186,6 +186,12 @@ def test_wire_and_gap_give_the_offset_and_the_machine_counts_for_the_check(
         shown.page.fill("input[name=gap_mm]", "0.015")
         assert shown.page.inner_text("#reach") == "0.200 / 2 + 0.015 = 0.115 mm"
         assert reading(shown, "kerf-half") == "0.115 mm"
+        shown.page.fill("input[name=gap_mm]", "-0.05")
+        shown.page.fill("input[name=wire_mm]", "0.1")
+        assert shown.page.inner_text("#reach") == "0.100 / 2 − 0.050 = 0.000 mm"
+        assert shown.page.inner_text("#wrong") == "wire and gap leave no kerf"
+        assert shown.page.is_disabled("#start")
+        shown.page.fill("input[name=gap_mm]", "")
         shown.page.fill("input[name=wire_mm]", "9")
         assert shown.page.inner_text("#wrong") == "wire diameter mm: 9 is no number from 0.01 to 1"
         names = [name for name in shown.page.locator("[name=machine] option").all_inner_texts() if "*" not in name]

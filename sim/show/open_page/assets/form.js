@@ -47,9 +47,11 @@ export function wireForm(onChange) {
       return fault;
     });
     const first = faults.findIndex(Boolean);
-    wrong.hidden = first < 0;
-    wrong.textContent = first < 0 ? "" : `${numbers[first].labels?.[0].innerText.trim() ?? ""}: ${faults[first]}`;
-    return first < 0;
+    const named = first < 0 ? "" : `${numbers[first].labels?.[0].innerText.trim() ?? ""}: ${faults[first]}`;
+    const fault = named || (wire().reachUm > 0 ? "" : language.say("no-kerf"));
+    wrong.hidden = !fault;
+    wrong.textContent = fault;
+    return !fault;
   }
 
   /**
@@ -64,13 +66,13 @@ export function wireForm(onChange) {
 
   /** The wire's diameter, and half the width that it cuts: f = d/2 + gap. */
   function wire() {
-    return { wireUm: um("wire_mm"), reachUm: Math.max(0, um("wire_mm") / 2 + um("gap_mm")) };
+    return { wireUm: um("wire_mm"), gapUm: um("gap_mm"), reachUm: Math.max(0, um("wire_mm") / 2 + um("gap_mm")) };
   }
 
   /** Work out what the values give. */
   function show() {
-    const { wireUm, reachUm } = wire();
-    element("#reach", HTMLElement).textContent = `${mm(wireUm)} / 2 + ${mm(um("gap_mm"))} = ${mm(reachUm)} mm`;
+    const { wireUm, gapUm, reachUm } = wire();
+    element("#reach", HTMLElement).textContent = `${mm(wireUm)} / 2 ${gapUm < 0 ? "−" : "+"} ${mm(Math.abs(gapUm))} = ${mm(reachUm)} mm`;
     for (const option of side.options) option.textContent = `${language.say(SIDES[option.value])} (${option.dataset.iso})`;
     isRight();
   }
