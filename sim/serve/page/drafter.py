@@ -5,17 +5,15 @@ large.
 """
 
 import json
-from collections.abc import Iterator, Mapping
-from itertools import pairwise
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Final
 
-from parser.drawing.model import Drawing, running
+from parser.drawing.model import Drawing
 from parser.drawing.read import read_drawing
 from parser.findings.catalogue import LANGUAGES, Bilingual, Language, remark_text
 from parser.findings.errors import DrycutError, SettingsError
 from parser.findings.messages import Message
-from parser.geometry.curves import Curves, joined, jump_between
 from parser.program import load_program, moving
 from parser.text.encoding import printable
 from parser.toolpath import Toolpath
@@ -24,7 +22,7 @@ from sim.make.cam.maker import MadeProgram, made_program, remarked
 from sim.make.cam.request import wanted_of
 from sim.measure.compare.compared_program import compare_program
 from sim.measure.compare.result import FitRequest
-from sim.measure.compare.starts import IN_PLACE, Placement, placed
+from sim.measure.compare.starts import IN_PLACE, Placement
 from sim.run.offsetting import as_run
 from sim.run.recording import stages_of
 from sim.serve.page.answers import read_file
@@ -36,7 +34,7 @@ from sim.setup.part import DrawingTarget
 from sim.setup.program_section import OR_NONE_MM, OVERCUT_MM, refuse_odd
 from sim.setup.scenario import Scenario
 from sim.show.refusals import why_refused
-from sim.show.replay.curve_columns import exact_columns
+from sim.show.replay.curve_columns import drawing_columns
 from sim.show.terminal.program import told_lines
 from sim.show.terminal.proof import against
 from sim.show.texts import Words
@@ -51,7 +49,7 @@ def _look(request: PageRequest) -> dict[str, Any]:
     drawing = read_drawing(target.file, gap_um=target.gap_um)
     placement, notes = _placement(request, drawing, target) if request["text"].strip() else (IN_PLACE, [])
     of_drawing = [Bilingual(*(remark_text(note, language) for language in LANGUAGES)) for note in drawing.notes]
-    answer = {"unit": drawing.unit, "curves": _columns(drawing, placement), "told": _both([*of_drawing, *notes])}
+    answer = {"unit": drawing.unit, "curves": drawing_columns(drawing, placement), "told": _both([*of_drawing, *notes])}
     return _written_answer(request, answer)
 
 
@@ -105,20 +103,6 @@ def _path(request: PageRequest, scenario: Scenario) -> Toolpath:
     """The path of the page's program, as the controller makes it."""
     program = moving(load_program(request["text"].encode("utf-8", "replace"), request["name"], scenario.choices))
     return as_run(program, scenario.offset).toolpath
-
-
-def _columns(drawing: Drawing, placement: Placement) -> dict[str, list[Any]]:
-    """Columns that a page draws the drawing by: its loops one behind the other, with jumps between them."""
-    loops = [running(drawing.curves, loop.row, loop.backwards) for loop in drawing.loops]
-    return exact_columns(joined(list(_with_jumps([placed(loop, placement) for loop in loops]))))
-
-
-def _with_jumps(loops: list[Curves]) -> Iterator[Curves]:
-    """Each loop, and before it the jump from the end of the last."""
-    yield from loops[:1]
-    for before, behind in pairwise(loops):
-        yield jump_between(before.end_um[-1], behind.start_um[0])
-        yield behind
 
 
 def _both(texts: list[Bilingual]) -> list[dict[str, str]]:

@@ -1,11 +1,15 @@
 """Columns of curves alone, exact: pages draw by them what was run, and what never was."""
 
+from collections.abc import Iterator
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
-from parser.geometry.curves import CurveKind, Curves, Floats
+from parser.drawing.model import Drawing, running
+from parser.geometry.curves import CurveKind, Curves, Floats, joined, jump_between
 from sim.base.rounded import column
+from sim.measure.compare.starts import Placement, placed
 
 _ANGLE_DIGITS = 12
 """On a radius of a metre they tell a place to 10⁻⁶ µm, as its own digits do."""
@@ -23,6 +27,20 @@ def exact_columns(path: Curves) -> dict[str, list[Any]]:
         "sweep_rad": column(path.sweep_rad, _ANGLE_DIGITS),
         "length_um": column(path.length_um),
     }
+
+
+def drawing_columns(drawing: Drawing, placement: Placement) -> dict[str, list[Any]]:
+    """Columns that pages draw a drawing by as it is laid: its loops one behind the other, with jumps between them."""
+    loops = [running(drawing.curves, loop.row, loop.backwards) for loop in drawing.loops]
+    return exact_columns(joined(list(_with_jumps([placed(loop, placement) for loop in loops]))))
+
+
+def _with_jumps(loops: list[Curves]) -> Iterator[Curves]:
+    """Each loop, and before it the jump from the end of the last."""
+    yield from loops[:1]
+    for before, behind in pairwise(loops):
+        yield jump_between(before.end_um[-1], behind.start_um[0])
+        yield behind
 
 
 def _pairs(name: str, place_um: Floats) -> dict[str, list[float | None]]:

@@ -43,12 +43,13 @@ from sim.show.draw.paints import paint_of_pass, tones_of
 from sim.show.html.environment import rendered
 from sim.show.html.packed import packed
 from sim.show.keys import OF_PAGE, actions_of
-from sim.show.replay.curve_columns import exact_columns
+from sim.show.replay.curve_columns import drawing_columns, exact_columns
 from sim.show.replay.model import (
     BlocksEntry,
     ContourEntry,
     DecodedBlockEntry,
     DecodingEntry,
+    DrawnEntry,
     EndingEntry,
     FindingEntry,
     FindingTextsEntry,
@@ -295,7 +296,13 @@ def _handed_over(document: ReplayDocument) -> dict[str, Any]:
 
     The lines of the program are not: a browser that is too old to unpack them lists them all the same.
     """
-    return {**document, "blocks": _packed(document["blocks"]), "plan": _packed(document["plan"])}
+    drawing = document["drawing"]
+    return {
+        **document,
+        "drawing": drawing and _packed(drawing),
+        "blocks": _packed(document["blocks"]),
+        "plan": _packed(document["plan"]),
+    }
 
 
 def _packed(columns: Mapping[str, Any]) -> dict[str, Any]:
@@ -325,6 +332,7 @@ def replay_document(recording: Recording) -> ReplayDocument:
         "work_um": None if scenario.work_um is None else _corners(scenario.work_um),
         "clamps": [{"name": clamp.name, "outline_um": _corners(clamp.outline_um)} for clamp in scenario.clamps],
         "has_jumps": bool(run.toolpath.is_jump.any()),
+        "drawing": _drawing(run),
         "blocks": block_columns(run),
         "decoding": decoding(run),
         "plan": plan_columns(run.plan),
@@ -338,6 +346,11 @@ def replay_document(recording: Recording) -> ReplayDocument:
         "quiz": quiz_of(run, course.steps),
         "tape": tape(course.steps, origin_um(run.toolpath), course.trace, course.across.row),
     }
+
+
+def _drawing(run: DryRun) -> DrawnEntry | None:
+    found = run.comparison
+    return None if found is None else cast(DrawnEntry, drawing_columns(found.drawing, found.placement))
 
 
 def _program(program: Program) -> ProgramEntry:

@@ -240,6 +240,20 @@ class TapeEntry(TypedDict):
     foot_row: str
 
 
+class DrawnEntry(TypedDict):
+    """Columns of n curves, each from the end of the one before it; `place_*` have n + 1."""
+
+    kind: list[CurveName]
+    place_x_um: list[float]
+    place_y_um: list[float]
+    center_x_um: Annotated[list[float], "of an arc"]
+    center_y_um: Annotated[list[float], "of an arc"]
+    radius_um: Annotated[list[float], "of an arc"]
+    start_angle_rad: Annotated[list[float], "of an arc"]
+    sweep_rad: Annotated[list[float], "of an arc"]
+    length_um: list[float]
+
+
 class ReplayDocument(TypedDict):
     """A recorded run; rows of blocks count from 0, steps from 1; places and lengths are µm of the program."""
 
@@ -259,6 +273,7 @@ class ReplayDocument(TypedDict):
     work_um: list[Point] | None
     clamps: list[ClampEntry]
     has_jumps: bool
+    drawing: Annotated[DrawnEntry | None, "that the cut was held against, as it lies on the part"]
     blocks: BlocksEntry
     decoding: Annotated[DecodingEntry | None, "null where the dialect decodes no words, and of long programs"]
     plan: PlanEntry

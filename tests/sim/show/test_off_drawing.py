@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import shapely
 from recorder import Recorder, recording_sheet
-from runs import scenario_run
+from runs import scenario_recording, scenario_run
 
 from sim.run.dryrun import DryRun
 from sim.run.recording import pieces_of_run
@@ -12,6 +12,7 @@ from sim.show.draw.paints import Paint
 from sim.show.pictures.cut.of_run import cut_of_run, draw_cut_of_run
 from sim.show.pictures.cut.off_drawing import OffDrawing, off_drawing
 from sim.show.pictures.cut.picture import layout_of
+from sim.show.replay.document import replay_document
 
 
 @pytest.fixture(name="wrong", scope="module")
@@ -61,6 +62,16 @@ def test_what_is_too_thin_to_be_seen_is_drawn_wider_and_says_so(wrong: DryRun) -
     page = layout_of(sheet, cut_of_run(wrong, None, sheet.say)).page
     assert (off.times_in(page), thin.times_in(page)) == (1, 20)
     assert thin.most_um * page.view.px_per_um * 20 >= 7.0 * page.unit
+
+
+def test_a_replay_has_the_drawing_where_there_is_one() -> None:
+    found = replay_document(scenario_recording("wrong-side"))["drawing"]
+    assert found is not None
+    assert set(found["kind"]) == {"line", "arc"}, "one loop, no jump"
+    outline = shapely.box(-4000, -2000, 4000, 2000).buffer(1000.0, quad_segs=2048).exterior
+    place = np.stack([found["place_x_um"], found["place_y_um"]], axis=1)
+    assert shapely.distance(outline, shapely.points(place)).max() < 0.5
+    assert replay_document(scenario_recording("backlash"))["drawing"] is None
 
 
 def drawn(run: DryRun) -> Recorder:

@@ -31,6 +31,7 @@
  * @property {Place[] | null} work_um
  * @property {Clamp[]} clamps
  * @property {boolean} has_jumps
+ * @property {Drawn | null} drawing that the cut was held against, as it lies on the part
  * @property {Blocks} blocks
  * @property {Decoding | null} decoding null where the dialect decodes no words, and of long programs
  * @property {Plan} plan
@@ -59,6 +60,20 @@
  * @typedef {object} Clamp
  * @property {string} name
  * @property {Place[]} outline_um
+ */
+
+/**
+ * Columns of n curves, each from the end of the one before it; `place_*` have n + 1.
+ * @typedef {object} Drawn
+ * @property {("line" | "arc" | "jump")[]} kind
+ * @property {number[]} place_x_um
+ * @property {number[]} place_y_um
+ * @property {number[]} center_x_um of an arc
+ * @property {number[]} center_y_um of an arc
+ * @property {number[]} radius_um of an arc
+ * @property {number[]} start_angle_rad of an arc
+ * @property {number[]} sweep_rad of an arc
+ * @property {number[]} length_um
  */
 
 /**

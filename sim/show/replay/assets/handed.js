@@ -20,6 +20,7 @@ async function columnsOf(columns) {
  */
 export async function readDocument(page = document) {
   const handed = JSON.parse(page.querySelector("#document")?.textContent ?? "");
-  const [blocks, plan] = await Promise.all([columnsOf(handed.blocks), columnsOf(handed.plan)]);
-  return { ...handed, blocks, plan };
+  const drawn = handed.drawing && columnsOf(handed.drawing);
+  const [blocks, plan, drawing] = await Promise.all([columnsOf(handed.blocks), columnsOf(handed.plan), drawn]);
+  return { ...handed, blocks, plan, drawing };
 }

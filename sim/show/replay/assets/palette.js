@@ -2,7 +2,7 @@
 
 const NAMES = /** @type {const} */ ([
   "page", "ink", "muted", "line", "raised", "accent", "control-line", "good", "table", "gone", "kerf", "ideal", "jump",
-  "start", "end", "work", "work-edge", "clamp", "clamp-edge", "slug", "wire", "steps", "trim-1", "trim-2", "trim-3",
+  "start", "end", "drawing", "work", "work-edge", "clamp", "clamp-edge", "slug", "wire", "steps", "trim-1", "trim-2", "trim-3",
   "trim-4",
 ]);
 

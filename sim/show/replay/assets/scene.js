@@ -1,6 +1,7 @@
 // What lies still: travel of the table, work, clamps, the ideal path, the start.
 import { newLayer } from "./layer.js";
 import { outline } from "./outline.js";
+import { pathOf } from "./path.js";
 
 /**
  * @import { Place, ReplayDocument } from "./document.js"
@@ -24,6 +25,7 @@ export function sceneOf(doc, path, colours) {
   /** @type {Place[]} */
   const travel = [[left, bottom], [right, bottom], [right, top], [left, top]];
   const ideal = newLayer();
+  const drawing = doc.drawing && pathOf(doc.drawing);
 
   /**
    * Fill and edge an outline.
@@ -63,6 +65,18 @@ export function sceneOf(doc, path, colours) {
   }
 
   /**
+   * The drawing that the cut was held against: the edge of the kerf runs on it where the part is as drawn.
+   * @param {Pen} pen
+   * @param {View} view
+   * @param {Path} drawn
+   */
+  function drawDrawing(pen, view, drawn) {
+    pen.strokeStyle = colours().drawing;
+    pen.lineWidth = 2.5;
+    drawn.stroke(pen, view, (kind) => kind !== "jump");
+  }
+
+  /**
    * A ring where the wire is threaded.
    * @param {Pen} pen
    * @param {View} view
@@ -89,13 +103,14 @@ export function sceneOf(doc, path, colours) {
       for (const clamp of doc.clamps) body(pen, view, clamp.outline_um, shades.clamp, shades["clamp-edge"]);
     },
     /**
-     * The ideal path over the kerf.
+     * The drawing and the ideal path over the kerf.
      * @param {Pen} pen
      * @param {View} view
      * @param {number} ratio
      * @param {boolean} isMoving
      */
     drawIdeal(pen, view, ratio, isMoving) {
+      if (drawing) drawDrawing(pen, view, drawing);
       if (ideal.cover(view, ratio, isMoving)) ideal.took(drawIdeal(ideal));
       ideal.copyTo(pen, view);
       drawStart(pen, view);
