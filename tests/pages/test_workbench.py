@@ -155,6 +155,23 @@ def test_all_certain_mends_are_made_at_one_click_and_can_be_undone(browsers: Bro
         shown.page.wait_for_function("() => document.querySelector('#text').value.includes('39600GX')")
 
 
+@pytest.mark.parametrize(
+    ("lang", "said"), [("en", "J counts the steps on one axis only"), ("zh", "J 只数一个轴的步数")]
+)
+def test_each_finding_has_the_page_of_its_code_in_place(
+    browsers: Browsers, empty: OpenedPage, lang: str, said: str
+) -> None:
+    with tab(browsers, empty.address, lang=lang) as shown:
+        shown.page.fill("#text", "B9900B0B39600GXNR1\nDD\n")
+        shown.waits_for("fail")
+        page = shown.page.locator("#found details")
+        assert page.locator("p").first.is_hidden()
+        page.locator("summary").click()
+        assert page.locator("p").first.inner_text().startswith(said)
+        assert "--fix" in page.locator("code").all_inner_texts()
+        assert complaints(shown.page) == []
+
+
 def test_an_empty_page_invites_and_nothing_is_red(browsers: Browsers, empty: OpenedPage) -> None:
     with tab(browsers, empty.address, lang="zh") as shown:
         assert shown.page.locator("#begin").is_visible()

@@ -9,7 +9,7 @@ import numpy as np
 
 from controller.motion.limits import Feeds
 from controller.stepping.words import interpolate
-from parser.findings.catalogue import LANGUAGES, Bilingual, texts
+from parser.findings.catalogue import LANGUAGES, Bilingual, page, texts
 from parser.findings.findings import Finding
 from parser.program import Program, usual_name
 from parser.shape.contours import find_contours
@@ -130,6 +130,7 @@ def answer(name: str, file: Path | None, text: str, for_run: Chosen = USUAL) -> 
         "verdict": "none" if result.unreadable else result.outcome,
         "settings": printable(found.wrong_settings),
         "findings": [_finding(finding, offsets) for finding in result.findings],
+        "pages": pages_of(result.findings),
         "path": _path(program, offsets, for_run.feeds) if program and len(program.toolpath) else None,
         "figures": _figures(program) if program and result.coverage.stepped else [],
         "size": size_of(result, for_run),
@@ -141,6 +142,16 @@ def found_in(text: str, findings: Iterable[Finding]) -> list[dict[str, Any]]:
     """Findings of a text as the page lists them."""
     offsets = Offsets(text)
     return [_finding(finding, offsets) for finding in findings]
+
+
+def pages_of(findings: Iterable[Finding]) -> dict[str, Any]:
+    """The pages of the codes of some findings: ``why`` and ``mend``, Markdown."""
+    codes = sorted({finding.code for finding in findings})
+    return {code: {part: _part(code, part) for part in ("why", "mend")} for code in codes}
+
+
+def _part(code: str, part: str) -> dict[str, str]:
+    return {language: getattr(page(code, language), part) for language in LANGUAGES}
 
 
 class Offsets:

@@ -23,7 +23,7 @@ from sim.jobs.run_into import run_into, stages_of_files
 from sim.run.findings import outcome
 from sim.run.recording import Recording, recorded, stages_of
 from sim.run.running import dry_run
-from sim.serve.page.answers import found_in
+from sim.serve.page.answers import found_in, pages_of
 from sim.serve.page.child import PageRequest, do, telling
 from sim.serve.page.form import number_of, scenario_of
 from sim.setup.scenario import Scenario, load_scenario
@@ -57,6 +57,7 @@ def _run(request: PageRequest) -> dict[str, Any]:
         "verdict": outcome(run.findings),
         "machine": machine_name(scenario.machine)._asdict(),
         "findings": found_in(program.text, found[:_MOST_FOUND]),
+        "pages": pages_of(found[:_MOST_FOUND]),
     }
 
 

@@ -52,6 +52,13 @@
  */
 
 /**
+ * The page of a code, Markdown.
+ * @typedef {object} Explained
+ * @property {Said} why
+ * @property {Said} mend
+ */
+
+/**
  * Where each block stands in the text.
  * @typedef {object} Sources
  * @property {number[]} line
@@ -92,6 +99,7 @@
  * @property {"pass" | "to-check" | "incomplete" | "fail" | "none"} verdict
  * @property {string} settings why the settings near its file do not count; else empty
  * @property {Finding[]} findings
+ * @property {Record<string, Explained>} pages of their codes
  * @property {Path | null} path
  * @property {Figure[]} figures
  * @property {Size | null} size
@@ -160,6 +168,7 @@
  * @property {Said} [machine]
  * @property {Said | null} [why]
  * @property {Finding[]} [findings] that the run itself made, beyond those of the check
+ * @property {Record<string, Explained>} [pages] of their codes
  * @property {MadeFile[]} [files] once it has ended well
  */
 

@@ -1,8 +1,14 @@
 // What was found: a list, each with its place, what is to be done, and its mend shown before it is made.
+import { pageOf } from "./explained.js";
 import { make } from "../../html/assets/elements.js";
 import * as language from "../../html/assets/language.js";
 
-/** @import { Edit, Finding } from "./data.js" */
+/** @import { Edit, Explained, Finding } from "./data.js" */
+
+/**
+ * What is done by a click, and the pages of the codes.
+ * @typedef {{ go: (finding: Finding) => void, mend: (finding: Finding) => void, pages: Record<string, Explained> }} On
+ */
 
 const MOST = 200;
 
@@ -41,7 +47,7 @@ export function diffOf(before, after) {
  * The entry of a finding.
  * @param {Finding} finding
  * @param {string} text that it was found in
- * @param {{ go: (finding: Finding) => void, mend: (finding: Finding) => void }} on
+ * @param {On} on
  */
 function entryOf(finding, text, on) {
   const places = [finding.line ? language.say("at-line", { line: finding.line }) : language.say("whole")];
@@ -58,6 +64,8 @@ function entryOf(finding, text, on) {
     mend.addEventListener("click", () => on.mend(finding));
     entry.append(diffOf(before, after), mend);
   }
+  const page = on.pages[finding.code];
+  if (page) entry.append(pageOf(page));
   return entry;
 }
 
@@ -83,7 +91,7 @@ export function editsOfAll(findings) {
  * @param {HTMLElement} list
  * @param {Finding[]} findings
  * @param {string} text
- * @param {{ go: (finding: Finding) => void, mend: (finding: Finding) => void }} on
+ * @param {On} on
  */
 export function showFound(list, findings, text, on) {
   const rows = findings.slice(0, MOST).map((finding) => entryOf(finding, text, on));

@@ -155,7 +155,8 @@ function show() {
   element("#found-count", HTMLElement).textContent = found.length ? `(${found.length})` : "";
   text.mark(found);
   if (known) {
-    showFound(list, found, known.text, { go, mend: ({ edits }) => mend(edits) });
+    const pages = { ...known.answer.pages, ...run.result()?.pages };
+    showFound(list, found, known.text, { go, mend: ({ edits }) => mend(edits), pages });
     showSize(element("#size", HTMLElement), element("#figures", HTMLElement), known.answer);
     const ran = run.result();
     status.judge(known.answer, ran ? worse(known.answer.verdict, ran.verdict) : known.answer.verdict);

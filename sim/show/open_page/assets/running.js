@@ -122,6 +122,6 @@ export function wireRun({ current, values, isRight, onStart, onDrafted, onRun, t
     show,
     follow: take,
     /** What the run of the text as it stands came to; null where there is none. */
-    result: () => (known.files && current().text === ran.text ? { verdict: known.verdict ?? "pass", findings: known.findings ?? [] } : null),
+    result: () => (known.files && current().text === ran.text ? { verdict: known.verdict ?? "pass", findings: known.findings ?? [], pages: known.pages ?? {} } : null),
   };
 }
