@@ -87,17 +87,17 @@ class Chosen(NamedTuple):
 
     @property
     def machine(self) -> Machine | None:
-        """The machine that is chosen; the settings near a program may name another one where none is."""
+        """The machine that is chosen; None where none is."""
         return _machine(self.name) if self.name else None
 
     @property
     def feeds(self) -> Feeds:
-        """Feeds of cuts and jumps, µm/s."""
+        """Feeds of cuts and jumps, µm/s, as a run would have them: settings of checks name no machine of a run."""
         return _machine(self.name or DEFAULT_MACHINE).feeds(self.thickness_mm)
 
     @property
     def title(self) -> Bilingual:
-        """The machine's name."""
+        """Name of the machine of a run."""
         return machine_name(_machine(self.name or DEFAULT_MACHINE))
 
 
