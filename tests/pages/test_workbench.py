@@ -164,6 +164,7 @@ def test_each_finding_has_the_page_of_its_code_in_place(
     with tab(browsers, empty.address, lang=lang) as shown:
         shown.page.fill("#text", "B9900B0B39600GXNR1\nDD\n")
         shown.waits_for("fail")
+        shown.page.wait_for_selector("#bar")  # it comes a moment later, and would take the focus away
         page = shown.page.locator("#found details")
         assert page.locator("p").first.is_hidden()
         page.locator("summary").click()
