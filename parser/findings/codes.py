@@ -51,8 +51,8 @@ class FindingCode(NamedTuple):
     placed
         Whether the finding says itself where it is, by its values ``x_mm`` and ``y_mm``: places on the part.
     spoils
-        Whether the part is scrap where what a warning tells was not meant so, by its page's own words of what the
-        machine does, and sound programs have none: then a person is to look before the cut.
+        Whether a warning of this code tells of a part that is scrap unless it was meant so, as its page says. No sound
+        program has one. A person looks at it before the cut.
     """
 
     severity: Severity

@@ -15,7 +15,6 @@ from parser.text.encoding import printable
 from parser.units import from_mm
 from sim.setup.dialect import READ_WITH, chosen_dialect
 from sim.setup.expectations import EXPECT, Expectation, expect_section, read_expectation
-from sim.setup.job_sheet import SHEET, JobFields
 from sim.setup.machine.controller_model import INTERPOLATOR
 from sim.setup.machine.machine import Machine, load_machine
 from sim.setup.making import LayerWish, ToMake
@@ -36,7 +35,15 @@ from sim.setup.toml.keys import Key, Section, WrittenSection
 from sim.setup.toml.kinds import FileName, Name, Number, TablePlace, Text, Truth
 from sim.setup.toml.reader import Bound, load_toml, number, section
 from sim.setup.wire import DEFAULT_WIRE, WIRE, Wire, read_wire
-from sim.setup.work import DEFAULT_DENSITY_G_CM3, DEFAULT_THICKNESS_MM, DENSITY_G_CM3, THICKNESS_MM, WORK
+from sim.setup.work import (
+    DEFAULT_DENSITY_G_CM3,
+    DEFAULT_THICKNESS_MM,
+    DENSITY_G_CM3,
+    SHEET,
+    THICKNESS_MM,
+    WORK,
+    JobFields,
+)
 
 MACHINE_FILE = "machine.toml"
 """Name of the machine file beside a scenario file that is written."""

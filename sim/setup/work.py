@@ -1,8 +1,10 @@
-"""The work: its thickness, its density and its outline."""
+"""The work: its thickness, its density and its outline; and what a shop writes of it on the sheet of the job."""
+
+from typing import Final, NamedTuple
 
 from sim.setup.obstacles import OutlineMm
 from sim.setup.toml.keys import Key, Section
-from sim.setup.toml.kinds import Number
+from sim.setup.toml.kinds import Name, Number
 from sim.setup.toml.reader import Bound
 
 THICKNESS_MM = Bound(0.01, 2000.0)
@@ -22,3 +24,18 @@ WORK = Section(
         Key("outline_mm", OutlineMm(), "work_um", default=None),
     ),
 )
+
+
+class JobFields(NamedTuple):
+    """Fields of the job sheet as they are written there; None of those that are left to be filled in by hand."""
+
+    part_number: str | None = None
+    material: str | None = None
+    pieces: str | None = None
+    pulse_on: str | None = None
+    pulse_off: str | None = None
+    current: str | None = None
+    wire_speed: str | None = None
+
+
+SHEET: Final = Section("sheet", tuple(Key(name, Name(), default=None) for name in JobFields._fields), fills="sheet")

@@ -15,6 +15,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from parser.drawing.model import Drawing, running
 from parser.geometry.along import places
 from parser.geometry.curves import Curves, Floats, Ints
 
@@ -88,6 +89,11 @@ def placed(curves: Curves, placement: Placement) -> Curves:
         sweep_rad=curves.sweep_rad * side,
         length_um=curves.length_um,
     )
+
+
+def laid_loops(drawing: Drawing, placement: Placement) -> list[Curves]:
+    """The loops of a drawing as it is laid, each as it runs: a curve begins where the one before it ends."""
+    return [placed(running(drawing.curves, loop.row, loop.backwards), placement) for loop in drawing.loops]
 
 
 def turning(turn_rad: float, *, mirror: bool = False) -> Floats:

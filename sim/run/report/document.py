@@ -40,9 +40,11 @@ from sim.run.report.model import (
     HeaderEntry,
     MachineEntry,
     NoHeaderEntry,
+    ProgramEntry,
     ReportDocument,
     SteppedEntry,
     TableEntry,
+    WireEntry,
 )
 from sim.run.report.remains import remains_entry
 from sim.run.report.run_model import ContourEntry, InterpolatorEntry, PassEntry, StockEntry, ThreadPointEntry
@@ -168,22 +170,10 @@ def build_report(run: DryRun) -> ReportDocument:
         "drycut": __version__,
         "verdict": verdict(run.findings),
         "to_check": to_check(run.findings),
-        "program": {
-            "name": run.program.name,
-            "title": scenario.title,
-            "provenance": scenario.provenance,
-            "encoding": run.program.encoding,
-            "dialect": run.program.reading.dialect,
-            "header": _header(run.program.header),
-        },
+        "program": _program(run),
         "machine": _machine(scenario),
         "assumptions": _assumptions(run),
-        "wire": {
-            "diameter_um": rounded(scenario.wire.diameter_um),
-            "spark_gap_um": rounded(scenario.wire.spark_gap_um),
-            "kerf_um": rounded(scenario.wire.kerf_um),
-            "lag_um": rounded(scenario.wire_lag_um),
-        },
+        "wire": _wire(scenario),
         "work": {"thickness_mm": scenario.thickness_mm, "density_g_cm3": scenario.density_g_cm3},
         "offset": offset_entry(run),
         "summary": {
@@ -207,6 +197,26 @@ def build_report(run: DryRun) -> ReportDocument:
         "stops": [{"kind": s.kind, "after_block": s.after, "line": s.line} for s in toolpath.stops],
         "card": None,
         "blocks": block_entries(run),
+    }
+
+
+def _program(run: DryRun) -> ProgramEntry:
+    return {
+        "name": run.program.name,
+        "title": run.scenario.title,
+        "provenance": run.scenario.provenance,
+        "encoding": run.program.encoding,
+        "dialect": run.program.reading.dialect,
+        "header": _header(run.program.header),
+    }
+
+
+def _wire(scenario: Scenario) -> WireEntry:
+    return {
+        "diameter_um": rounded(scenario.wire.diameter_um),
+        "spark_gap_um": rounded(scenario.wire.spark_gap_um),
+        "kerf_um": rounded(scenario.wire.kerf_um),
+        "lag_um": rounded(scenario.wire_lag_um),
     }
 
 

@@ -1,7 +1,6 @@
 """What the page is told of a program: its findings with their mends, its path in columns, its figures and its size."""
 
 from collections.abc import Iterable
-from functools import cache
 from pathlib import Path
 from typing import Any, Final, NamedTuple
 
@@ -19,12 +18,10 @@ from parser.text.lines import LINE_END
 from sim.base.rounded import numbers, rounded
 from sim.check.file_check import as_typed
 from sim.check.result import CheckResult
-from sim.setup.machine.machine import Machine, load_machine, machine_names
-from sim.setup.scenario import DEFAULT_MACHINE
-from sim.setup.work import DEFAULT_THICKNESS_MM, THICKNESS_MM
+from sim.serve.page.form import USUAL, Chosen
 from sim.show.replay.curve_columns import exact_columns
 from sim.show.texts import bilingual
-from sim.show.texts.phrases import lasting, machine_name
+from sim.show.texts.phrases import lasting
 
 
 class ReadFile(NamedTuple):
@@ -77,43 +74,6 @@ def _line_ends(read: ReadFile, text: str) -> list[str]:
     tail = next((at for at in range(most) if before[~at] != after[~at]), most)
     between = [was[min(at, len(was) - 1)] for at in range(head, count - tail)]
     return [*was[:head], *between, *was[len(was) - tail :]]
-
-
-class Chosen(NamedTuple):
-    """What the form of the page chooses for its run: a shipped machine, empty for the default one, and a thickness."""
-
-    name: str = ""
-    thickness_mm: float = DEFAULT_THICKNESS_MM
-
-    @property
-    def machine(self) -> Machine | None:
-        """The machine that is chosen; None where none is."""
-        return _machine(self.name) if self.name else None
-
-    @property
-    def feeds(self) -> Feeds:
-        """Feeds of cuts and jumps, µm/s, as a run would have them: settings of checks name no machine of a run."""
-        return _machine(self.name or DEFAULT_MACHINE).feeds(self.thickness_mm)
-
-    @property
-    def title(self) -> Bilingual:
-        """Name of the machine of a run."""
-        return machine_name(_machine(self.name or DEFAULT_MACHINE))
-
-
-USUAL: Final = Chosen()
-"""What a run has that chooses nothing."""
-
-
-def chosen(machine: str, thickness_mm: str) -> Chosen:
-    """What the texts of the form choose; what is wrong in them leaves what is usual, and is told at the form."""
-    try:
-        thickness = float(thickness_mm)
-    except ValueError:
-        thickness = DEFAULT_THICKNESS_MM
-    if not THICKNESS_MM.low <= thickness <= THICKNESS_MM.high:
-        thickness = DEFAULT_THICKNESS_MM
-    return Chosen(machine if machine in machine_names() else "", thickness)
 
 
 def answer(name: str, file: Path | None, text: str, for_run: Chosen = USUAL) -> dict[str, Any]:
@@ -235,11 +195,6 @@ def size_of(result: CheckResult, for_run: Chosen = USUAL) -> dict[str, Any] | No
 
 def _about(cut_um: float, length_um: float, for_run: Chosen) -> Bilingual:
     """How long the feeds of the machine take, without accelerations and stops: a run tells it exactly."""
-    feeds, name = for_run.feeds, for_run.name or DEFAULT_MACHINE
+    feeds = for_run.feeds
     time_s = cut_um / float(feeds.cut_um_s) + (length_um - cut_um) / feeds.jump_um_s
-    return bilingual("open.time", time=lasting(time_s), machine=name, thickness=f"{for_run.thickness_mm:g}")
-
-
-@cache
-def _machine(name: str) -> Machine:
-    return load_machine(name)
+    return bilingual("open.time", time=lasting(time_s), machine=for_run.known_as, thickness=f"{for_run.thickness_mm:g}")

@@ -18,8 +18,9 @@ from starlette.routing import Route
 
 from parser.findings.errors import FileUnreadableError, ProgramError
 from parser.text.encoding import printable
-from sim.serve.page.answers import Chosen, ReadFile, answer, chosen, file_of, read_file
+from sim.serve.page.answers import ReadFile, answer, file_of, read_file
 from sim.serve.page.drawings import Drawings, is_drawing
+from sim.serve.page.form import Chosen, chosen
 from sim.serve.page.life import Life
 from sim.serve.page.programs import Programs
 from sim.serve.page.row import row_or_why

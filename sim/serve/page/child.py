@@ -110,8 +110,8 @@ class Child:
         with contextlib.suppress(ProcessLookupError):
             self._process.kill()
 
-    async def ended(self) -> None:
-        """End one that was told nothing."""
+    async def close(self) -> None:
+        """End one that was given no job."""
         self.end()
         stdin = self._process.stdin
         assert stdin is not None  # noqa: S101 - asked for

@@ -1,21 +1,26 @@
 """The form of the page as a scenario: its texts are read here, and held to the bounds of every other door."""
 
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
-from typing import Final
+from typing import Final, NamedTuple
 
+from controller.motion.limits import Feeds
+from parser.findings.catalogue import Bilingual
 from parser.findings.errors import SettingsError
 from parser.findings.messages import Message
 from parser.text.encoding import narrow
 from parser.units import from_mm
 from sim.serve.page.child import PageRequest
-from sim.setup.machine.machine import load_machine, machine_names
+from sim.setup.machine.machine import Machine, load_machine, machine_names
 from sim.setup.part import OFFSET_MM, PASSES, SIDES, DrawingTarget, Offset, OffsetPass
-from sim.setup.scenario import Scenario, load_scenario
+from sim.setup.scenario import DEFAULT_MACHINE, Scenario, load_scenario
 from sim.setup.settable import FIELDS, with_settings
 from sim.setup.toml.keys import Key
 from sim.setup.toml.kinds import Number
 from sim.setup.toml.reader import Bound, number
+from sim.setup.work import DEFAULT_THICKNESS_MM, THICKNESS_MM
+from sim.show.texts.phrases import machine_name
 
 _NAMES: Final = {
     "thickness_mm": Message("name-thickness"),
@@ -70,3 +75,48 @@ def _offset(request: PageRequest) -> Offset | None:
         return None
     passes = tuple(OffsetPass(by_um) for by_um in offsets_um(request, OFFSET_MM))
     return Offset(passes, SIDES["left" if request["side"] == "left" else "right"])
+
+
+class Chosen(NamedTuple):
+    """What the form of the page chooses for its run: a shipped machine, empty for the default one, and a thickness."""
+
+    name: str = ""
+    thickness_mm: float = DEFAULT_THICKNESS_MM
+
+    @property
+    def machine(self) -> Machine | None:
+        """The machine that is chosen; None where none is."""
+        return _machine(self.name) if self.name else None
+
+    @property
+    def known_as(self) -> str:
+        """Name of the file of a run's machine."""
+        return self.name or DEFAULT_MACHINE
+
+    @property
+    def feeds(self) -> Feeds:
+        """Feeds of cuts and jumps, µm/s, as a run would have them: settings of checks name no machine of a run."""
+        return _machine(self.known_as).feeds(self.thickness_mm)
+
+    @property
+    def title(self) -> Bilingual:
+        """What people call a run's machine."""
+        return machine_name(_machine(self.known_as))
+
+
+USUAL: Final = Chosen()
+"""What a run has that chooses nothing."""
+
+
+def chosen(machine: str, thickness_mm: str) -> Chosen:
+    """What the texts of the form choose; what is wrong in them leaves what is usual, and is told at the form."""
+    name = machine if machine in machine_names() else ""
+    try:
+        return Chosen(name, number_of(thickness_mm, THICKNESS_MM, _NAMES["thickness_mm"]))
+    except SettingsError:
+        return Chosen(name)
+
+
+@cache
+def _machine(name: str) -> Machine:
+    return load_machine(name)

@@ -91,7 +91,7 @@ class Runs:
             await self._end()
             spare, self._spare = self._spare, None
             if spare is not None:
-                await spare.ended()
+                await spare.close()
 
     async def _spared(self) -> None:
         if self._is_warm and self._spare is None:

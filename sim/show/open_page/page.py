@@ -13,6 +13,7 @@ from sim.setup.scenario import DEFAULT_MACHINE
 from sim.setup.settable import FIELDS
 from sim.setup.wire import DEFAULT_WIRE
 from sim.show.html.environment import rendered
+from sim.show.keys import OF_PAGE, actions_of
 from sim.show.texts.texts import texts
 
 _ASSETS: Final = Path(__file__).with_name("assets")
@@ -34,8 +35,9 @@ def open_page(starts: Sequence[str]) -> tuple[str, str]:
         languages=LANGUAGES,
         default_machine=DEFAULT_MACHINE,
         fields=FIELDS,
-        bounds={name: key.kind.bound for name, key in FIELDS.items()} | {"offset_mm": OFFSET_MM},
+        offset_mm=OFFSET_MM,
         starts=starts,
+        actions=actions_of(OF_PAGE),
         reach=f"{mm(DEFAULT_WIRE.reach_um):g}",
         pictures={
             name.removeprefix(_PICTURE): said._asdict()

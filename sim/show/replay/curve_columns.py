@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from parser.drawing.model import Drawing, running
+from parser.drawing.model import Drawing
 from parser.geometry.curves import CurveKind, Curves, Floats, joined, jump_between
 from sim.base.rounded import column
-from sim.measure.compare.starts import Placement, placed
+from sim.measure.compare.starts import Placement, laid_loops
 
 _ANGLE_DIGITS = 12
 """On a radius of a metre they tell a place to 10⁻⁶ µm, as its own digits do."""
@@ -31,8 +31,7 @@ def exact_columns(path: Curves) -> dict[str, list[Any]]:
 
 def drawing_columns(drawing: Drawing, placement: Placement) -> dict[str, list[Any]]:
     """Columns that pages draw a drawing by as it is laid: its loops one behind the other, with jumps between them."""
-    loops = [running(drawing.curves, loop.row, loop.backwards) for loop in drawing.loops]
-    return exact_columns(joined(list(_with_jumps([placed(loop, placement) for loop in loops]))))
+    return exact_columns(joined(list(_with_jumps(laid_loops(drawing, placement)))))
 
 
 def _with_jumps(loops: list[Curves]) -> Iterator[Curves]:

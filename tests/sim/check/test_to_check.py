@@ -1,6 +1,7 @@
 """What passes and may still spoil the part is to be checked by a person, and says so wherever a verdict stands."""
 
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -25,6 +26,13 @@ def test_each_code_that_may_spoil_a_part_is_a_warning_whose_page_says_what_becom
     for code in SPOILING:
         assert CODES[code].severity is Severity.WARNING
         assert page(code).machine
+
+
+@pytest.mark.parametrize("document", ["check.md", "check.zh.md"])
+def test_the_document_lists_these_codes_and_no_others(document: str) -> None:
+    text = (ROOT / "docs" / document).read_text("utf-8")
+    (told,) = re.findall(r"(?:These are the warnings of|这些警告是)(.*?)[.。]", text, re.DOTALL)
+    assert re.findall(r"(?:3B|ISO|PMC)\d{3}", told) == SPOILING
 
 
 def test_a_warning_of_such_a_code_is_to_be_checked_and_its_mend_is_not() -> None:

@@ -6,12 +6,14 @@ import shapely
 from recorder import Recorder, recording_sheet
 from runs import scenario_recording, scenario_run
 
+from sim.measure.compare.strips import Strips, strips_of
 from sim.run.dryrun import DryRun
 from sim.run.recording import pieces_of_run
 from sim.show.draw.paints import Paint
 from sim.show.pictures.cut.of_run import cut_of_run, draw_cut_of_run
-from sim.show.pictures.cut.off_drawing import OffDrawing, off_drawing
+from sim.show.pictures.cut.off_drawing import times_wider
 from sim.show.pictures.cut.picture import layout_of
+from sim.show.pictures.cut.shapes import Shapes
 from sim.show.replay.document import replay_document
 
 
@@ -20,9 +22,9 @@ def run_on_the_wrong_side() -> DryRun:
     return scenario_run("wrong-side")
 
 
-def off_of(run: DryRun) -> OffDrawing:
+def off_of(run: DryRun) -> Strips:
     assert run.comparison is not None
-    found = off_drawing(run.comparison)
+    found = strips_of(run.comparison)
     assert found is not None
     return found
 
@@ -35,21 +37,21 @@ def test_places_lie_on_the_edge_and_their_feet_on_the_drawing(wrong: DryRun) -> 
     away = np.hypot(*(off.edge_um - off.foot_um).T)
     assert away == pytest.approx(shapely.distance(outline, shapely.points(off.edge_um)), abs=0.3)
     assert wrong.comparison is not None
-    assert off.most_um == pytest.approx(wrong.comparison.edge_max_um, abs=0.3)
+    assert off.widest_um == pytest.approx(wrong.comparison.edge_max_um, abs=0.3)
     assert set(off.side.tolist()) == {-1}, "the wire cut into the plate all round"
 
 
 def test_a_cut_that_is_as_drawn_has_none() -> None:
     comparison = scenario_run("die").comparison
     assert comparison is not None
-    assert off_drawing(comparison) is None
+    assert strips_of(comparison) is None
 
 
 def test_strips_are_filled_to_scale_where_that_is_seen(wrong: DryRun) -> None:
     canvas = drawn(wrong)
     assert "cut too deep" in canvas.texts
     sheet = recording_sheet()
-    px_per_um = layout_of(sheet, cut_of_run(wrong, pieces_of_run(wrong), sheet.say)).page.view.px_per_um
+    px_per_um = layout_of(sheet, cut_of_run(wrong, pieces_of_run(wrong), sheet.say, Shapes())).page.view.px_per_um
     area_px = sum(shapely.Polygon(call.at[0]).area for call in canvas.of("region", Paint.OVERCUT))
     # 0.2 mm all round an opening of 10 mm by 6 mm with corners of 1 mm: 2 (8 + 4) + 2 π 1.1 along its middle.
     assert area_px / px_per_um**2 == pytest.approx(200.0 * (24_000.0 + 2 * np.pi * 1100.0), rel=0.02)
@@ -59,9 +61,9 @@ def test_what_is_too_thin_to_be_seen_is_drawn_wider_and_says_so(wrong: DryRun) -
     off = off_of(wrong)
     thin = off._replace(edge_um=off.foot_um + 0.02 * (off.edge_um - off.foot_um))
     sheet = recording_sheet()
-    page = layout_of(sheet, cut_of_run(wrong, None, sheet.say)).page
-    assert (off.times_in(page), thin.times_in(page)) == (1, 20)
-    assert thin.most_um * page.view.px_per_um * 20 >= 7.0 * page.unit
+    page = layout_of(sheet, cut_of_run(wrong, None, sheet.say, Shapes())).page
+    assert (times_wider(off, page), times_wider(thin, page)) == (1, 20)
+    assert thin.widest_um * page.view.px_per_um * 20 >= 7.0 * page.unit
 
 
 def test_a_replay_has_the_drawing_where_there_is_one() -> None:

@@ -1,4 +1,5 @@
 // What tells the blocks of a path apart where they have room: their numbers, and arrows that show which way they go.
+import { placeOn } from "../../replay/assets/path.js";
 
 /** @import { Path } from "./data.js" */
 /** @import { Path as Drawn } from "../../replay/assets/path.js" */
@@ -12,24 +13,19 @@ const ARROW = 5; // px
 const BESIDE = 12; // px from the path to the middle of a number
 
 /**
- * The middle of a block, and which way it goes there: a direction of length 1, Y upwards.
+ * Which way a block goes in its middle: a direction of length 1, Y upwards.
  * @param {Path} path
  * @param {number} row
- * @returns {[x: number, y: number, wayX: number, wayY: number]}
+ * @returns {[x: number, y: number]}
  */
-function middleOf(path, row) {
-  const [x, y, toX, toY] = [path.place_x_um[row], path.place_y_um[row], path.place_x_um[row + 1], path.place_y_um[row + 1]];
+function wayOf(path, row) {
   if (path.kind[row] === "arc") {
-    const [radius, sweep] = [path.radius_um[row], path.sweep_rad[row]];
-    const angle = path.start_angle_rad[row] + sweep / 2;
-    const sense = Math.sign(sweep);
-    return [
-      path.center_x_um[row] + radius * Math.cos(angle), path.center_y_um[row] + radius * Math.sin(angle),
-      -sense * Math.sin(angle), sense * Math.cos(angle),
-    ];
+    const [angle, sense] = [path.start_angle_rad[row] + path.sweep_rad[row] / 2, Math.sign(path.sweep_rad[row])];
+    return [-sense * Math.sin(angle), sense * Math.cos(angle)];
   }
-  const length = Math.hypot(toX - x, toY - y) || 1;
-  return [(x + toX) / 2, (y + toY) / 2, (toX - x) / length, (toY - y) / length];
+  const [x, y] = [path.place_x_um[row + 1] - path.place_x_um[row], path.place_y_um[row + 1] - path.place_y_um[row]];
+  const length = Math.hypot(x, y) || 1;
+  return [x / length, y / length];
 }
 
 /**
@@ -47,7 +43,8 @@ export function drawBlockMarks(pen, view, path, drawn, shades) {
   pen.textAlign = "center";
   pen.textBaseline = "middle";
   for (const row of rows) {
-    const [x, y, wayX, wayY] = middleOf(path, row);
+    const [x, y] = placeOn(path, row, 0.5);
+    const [wayX, wayY] = wayOf(path, row);
     const [px, py] = [view.toX(x), view.toY(y)];
     pen.fillStyle = path.kind[row] === "jump" ? shades.jump : shades.ink;
     pen.beginPath();

@@ -1,6 +1,6 @@
-// Files that come to the page and go from it: dropped, picked, or of the folder; saved as they came.
+// Files that come to the page and go from it: dropped, picked, of the folder, or an example; saved as they came.
 import * as asked from "./asked.js";
-import { element } from "../../html/assets/elements.js";
+import { element, elements } from "../../html/assets/elements.js";
 
 /** @import { FileText } from "./data.js" */
 
@@ -68,6 +68,11 @@ export function wireFiles({ begin, draw, list, unlist, current, onSaved, tell })
     }
   }
 
+  const offer = element("#begin", HTMLElement);
+  for (const button of elements("[data-open]", offer)) button.addEventListener("click", () => pick.click());
+  for (const button of elements("[data-start]", offer)) {
+    button.addEventListener("click", () => asked.example(button.dataset.start ?? "").then(take, () => tell("no-server")));
+  }
   window.addEventListener("dragover", (event) => event.preventDefault());
   window.addEventListener("drop", (event) => {
     event.preventDefault();
@@ -84,5 +89,13 @@ export function wireFiles({ begin, draw, list, unlist, current, onSaved, tell })
     tell("closed");
   });
   window.setInterval(() => asked.alive().catch(() => tell("no-server")), ALIVE_MS);
-  return { open, take, pick: () => pick.click() };
+  return {
+    open,
+    take,
+    /**
+     * Offer a file or an example to begin with, over the empty picture.
+     * @param {boolean} isShown
+     */
+    offer(isShown) { offer.hidden = !isShown; },
+  };
 }

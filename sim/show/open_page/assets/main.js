@@ -1,6 +1,5 @@
 // Puts the page together: a file comes in, its text is checked while it is edited, and what is found shows at once.
 import * as asked from "./asked.js";
-import { wireBegin } from "./begin.js";
 import { wireDrawing } from "./drawing.js";
 import { wireFiles } from "./files.js";
 import { wireForm } from "./form.js";
@@ -79,7 +78,6 @@ const files = wireFiles({
   tell,
 });
 const listing = wireListing(files.open);
-const offer = wireBegin(files.pick, files.take, () => tell("no-server"));
 
 /** @type {FileText} */
 let file = { name: "", text: "", encoding: "utf-8", newline: "\n", number: "" };
@@ -147,7 +145,7 @@ function allFound() {
 
 /** Show what is known, in the language of the page. */
 function show() {
-  offer.show(!text.value && !drawing.number());
+  files.offer(!text.value && !drawing.number());
   const found = allFound();
   const { mended } = editsOfAll(found);
   mendAll.hidden = mended < 2;

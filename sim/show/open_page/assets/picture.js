@@ -9,7 +9,8 @@ import { penOf } from "../../replay/assets/pen.js";
 import { differing } from "./differing.js";
 import { wireMeasuring } from "./measuring.js";
 import { rowAt } from "./snap.js";
-import { drawAxes, drawBand, drawPlayed, drawWireOf } from "./under_path.js";
+import { drawAxes, drawBand, drawPlayed } from "./under_path.js";
+import { drawWire } from "../../replay/assets/wire.js";
 import { drawScaleBar } from "../../replay/assets/scale_bar.js";
 import { wirePointer } from "../../replay/assets/pointer.js";
 
@@ -150,7 +151,7 @@ export function pictureOf(canvas, on) {
     if (shown?.moment.t) drawPlayed(pen, view, shown, ratio, isMoving);
     else if (drawn) drawBand(pen, view, drawn, 2 * reachUm, shades);
     if (drawn) drawProgram(drawn, shades);
-    if (shown?.moment.t) drawWireOf(pen, view, shown, colours);
+    if (shown?.moment.t) drawWire(pen, view, shown.moment, 0, shown.show.wireUm, colours);
     measuring.draw(pen, shades.accent);
     drawScaleBar(pen, view, colours);
   }

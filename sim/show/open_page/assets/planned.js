@@ -1,27 +1,12 @@
 // The replay of a path that was not run: where the wire is at the machine's feeds, and no table that lags behind it.
 import { clamp, countUpTo } from "../../replay/assets/numbers.js";
+import { placeOn } from "../../replay/assets/path.js";
 
 /** @import { Path, Finding } from "./data.js" */
-/** @import { Finding as Marked, Place } from "../../replay/assets/document.js" */
+/** @import { Finding as Marked } from "../../replay/assets/document.js" */
 /** @import { Cut } from "../../replay/assets/kerf.js" */
 
 const SAG_UM = 1; // that a chord of an arc may lie inside it, where the kerf is drawn
-
-/**
- * Where a block leads after a share of its way.
- * @param {Path} path
- * @param {number} row
- * @param {number} share
- * @returns {Place}
- */
-function placeOn(path, row, share) {
-  if (path.kind[row] === "arc") {
-    const angle = path.start_angle_rad[row] + share * path.sweep_rad[row];
-    return [path.center_x_um[row] + path.radius_um[row] * Math.cos(angle), path.center_y_um[row] + path.radius_um[row] * Math.sin(angle)];
-  }
-  const [x, y, toX, toY] = [path.place_x_um[row], path.place_y_um[row], path.place_x_um[row + 1], path.place_y_um[row + 1]];
-  return [x + share * (toX - x), y + share * (toY - y)];
-}
 
 /**
  * Places along a path, arcs in chords, when the wire is there, and whether it cut on its way to each.

@@ -1,8 +1,8 @@
 // The time line under the picture: it plays the path at the machine's feeds at once, and a run once there is one.
 import { element, elements } from "../../html/assets/elements.js";
 import * as language from "../../html/assets/language.js";
-import { showPlayer, wireButtons, wireSpeed } from "../../replay/assets/controls.js";
-import { isOwn } from "../../replay/assets/keys.js";
+import { playerActions, showPlayer, wireButtons, wireSpeed } from "../../replay/assets/controls.js";
+import { actionOf, readKeys } from "../../replay/assets/keys.js";
 import { decode } from "../../replay/assets/decode.js";
 import { readDocument } from "../../replay/assets/handed.js";
 import { kerfOf } from "../../replay/assets/kerf.js";
@@ -79,6 +79,7 @@ export function showOfPath(path, findings, { wireUm, reachUm }, colours) {
  */
 export function wirePlaying({ colours, draw, tell }) {
   const place = element("#play", HTMLElement);
+  const keys = readKeys();
   const template = element("#transport-template", window.HTMLTemplateElement);
   /** @type {{ show: Show, player: Player, timeline: ReturnType<typeof timelineIn> } | null} */
   let now = null;
@@ -132,39 +133,15 @@ export function wirePlaying({ colours, draw, tell }) {
     if (last !== null) redraw();
   }
 
-  /** @param {Player} player */
-  const actionsOf = (player) => ({
-    toggle: player.toggle,
-    stepBack: () => player.stepBy(-1),
-    stepOn: () => player.stepBy(1),
-    blockBack: () => player.blockBy(-1),
-    blockOn: () => player.blockBy(1),
-    toStart: () => player.seek(0),
-    toEnd: () => player.seek(player.duration),
-    slower: () => player.faster(-1),
-    faster: () => player.faster(1),
-    loopFrom: () => player.setLoop("from"),
-    loopTo: () => player.setLoop("to"),
-    loop: player.toggleLoop,
-    clearLoop: player.clearLoop,
-  });
-
-  /** @type {Record<string, keyof ReturnType<typeof actionsOf>>} */
-  const KEYS = {
-    " ": "toggle", ArrowLeft: "stepBack", ArrowRight: "stepOn", ArrowUp: "blockBack", ArrowDown: "blockOn",
-    Home: "toStart", End: "toEnd", "[": "slower", "]": "faster", a: "loopFrom", b: "loopTo", l: "loop", c: "clearLoop",
-  };
-
   /**
    * Keys act where the picture or the time line has the focus: elsewhere they belong to text and form.
    * @param {KeyboardEvent} event
    */
   function onKey(event) {
-    const isWith = event.ctrlKey || event.metaKey || event.altKey || event.shiftKey;
-    const action = isWith || isOwn(event) ? null : KEYS[event.key.length === 1 ? event.key.toLowerCase() : event.key];
-    if (!action || !now) return;
+    const action = now && playerActions(now.player)[actionOf(event, keys) ?? ""];
+    if (!action) return;
     event.preventDefault();
-    actionsOf(now.player)[action]();
+    action();
   }
 
   place.addEventListener("keydown", onKey);
@@ -209,7 +186,7 @@ export function wirePlaying({ colours, draw, tell }) {
       element("[data-of-run]", HTMLElement, place).hidden = !show.isRun;
       element("[data-of-feeds]", HTMLElement, place).hidden = show.isRun;
       now = { show, player, timeline };
-      wireButtons(actionsOf(player), elements("[data-do]", place));
+      wireButtons(playerActions(player), elements("[data-do]", place));
       wireSpeed(element("#speed", HTMLInputElement, place), element("#speed-shown", HTMLElement, place), player);
       if (mayStay) player.seek(before.player.place.t);
       else isUnderWay = false;

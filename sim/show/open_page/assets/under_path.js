@@ -1,8 +1,7 @@
 // What lies under the path of the picture: the axes of the program, how wide the wire will cut, and what is cut by now.
 import { countUpTo } from "../../replay/assets/numbers.js";
-import { drawWire } from "../../replay/assets/wire.js";
 
-/** @import { Colours, Shades } from "../../replay/assets/palette.js" */
+/** @import { Shades } from "../../replay/assets/palette.js" */
 /** @import { Path as Drawn } from "../../replay/assets/path.js" */
 /** @import { Pen } from "../../replay/assets/pen.js" */
 /** @import { View } from "../../replay/assets/view.js" */
@@ -63,12 +62,3 @@ export function drawPlayed(pen, view, { show, moment, isPlaying, time }, ratio, 
   show.kerf.draw(pen, view, ratio, isMoving, last, moment.wire);
   show.pieces?.draw(pen, view, { ratio, isMoving, t: moment.t, now: time, mayFall: isPlaying });
 }
-
-/**
- * The wire, over all else.
- * @param {Pen} pen
- * @param {View} view
- * @param {Shown} shown
- * @param {Colours} colours
- */
-export const drawWireOf = (pen, view, { show, moment }, colours) => drawWire(pen, view, moment, 0, show.wireUm, colours);

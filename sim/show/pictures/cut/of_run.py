@@ -4,7 +4,6 @@ from sim.cut.pieces.pieces import Pieces
 from sim.run.dryrun import DryRun
 from sim.show.draw.sheet import AnyCanvas, Sheet
 from sim.show.pictures.cut.of_path import bodies_of, note_of, travel_um
-from sim.show.pictures.cut.off_drawing import off_drawing
 from sim.show.pictures.cut.picture import draw_cut
 from sim.show.pictures.cut.shapes import Shapes
 from sim.show.pictures.cut.subject import Cut
@@ -16,11 +15,12 @@ def draw_cut_of_run(
     sheet: Sheet[AnyCanvas], run: DryRun, pieces: Pieces | None, shapes: Shapes | None = None
 ) -> AnyCanvas:
     """Draw the cut of a run, with the pieces that it frees where they are known; with `shapes` of earlier pictures."""
-    return draw_cut(sheet, cut_of_run(run, pieces, sheet.say), shapes)
+    shapes = shapes or Shapes()
+    return draw_cut(sheet, cut_of_run(run, pieces, sheet.say, shapes), shapes)
 
 
-def cut_of_run(run: DryRun, pieces: Pieces | None, say: Words) -> Cut:
-    """The cut of a run, with the pieces that it frees where they are known."""
+def cut_of_run(run: DryRun, pieces: Pieces | None, say: Words, shapes: Shapes) -> Cut:
+    """The cut of a run, with the pieces that it frees where they are known; `shapes` are those of all its pictures."""
     scenario = run.scenario
     return Cut(
         toolpath=run.toolpath,
@@ -35,5 +35,5 @@ def cut_of_run(run: DryRun, pieces: Pieces | None, say: Words) -> Cut:
         sizes=None if run.remains is None else run.remains.sizes,
         findings=run.findings,
         travel_um=travel_um(run.toolpath, scenario),
-        off=None if run.comparison is None else off_drawing(run.comparison),
+        off=shapes.strips(run.comparison),
     )

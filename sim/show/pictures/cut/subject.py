@@ -10,13 +10,13 @@ from parser.toolpath import Toolpath
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.labels import Room
 from sim.show.draw.layout import Page
-from sim.show.pictures.cut.off_drawing import OffDrawing
 from sim.show.pictures.cut.outlines import Bodies
 from sim.show.texts import Words
 
 if TYPE_CHECKING:  # what only a run has: the picture of a path does without the engine
     from sim.cut.pieces.pieces import Pieces
     from sim.cut.sizes.sizes import Sizes
+    from sim.measure.compare.strips import Strips
     from sim.table.trace import Trace
 
 NOTHING: Final = Bodies()
@@ -50,7 +50,8 @@ class Cut(NamedTuple):
     travel_um
         The box that the table can reach, (2, 2): lowest and highest (x, y).
     off
-        Where the edge is off the drawing that it was held against; None where it is nowhere, or there is none.
+        Strips between the edge and the drawing that it was held against; None where it is nowhere off, or there is
+        none.
     """
 
     toolpath: Toolpath
@@ -66,7 +67,7 @@ class Cut(NamedTuple):
     sizes: "Sizes | None" = None
     findings: Sequence[Finding] = ()
     travel_um: Floats | None = None
-    off: OffDrawing | None = None
+    off: "Strips | None" = None
 
 
 class Board(NamedTuple):

@@ -19,6 +19,31 @@ const ZOOM = 1.5;
 const HUNDRED = 100;
 
 /**
+ * Actions of a player by name.
+ * @param {Player} player
+ * @returns {Actions}
+ */
+export function playerActions(player) {
+  return {
+    toggle: player.toggle,
+    stepBack: () => player.stepBy(-1),
+    stepOn: () => player.stepBy(1),
+    hundredBack: () => player.stepBy(-HUNDRED),
+    hundredOn: () => player.stepBy(HUNDRED),
+    blockBack: () => player.blockBy(-1),
+    blockOn: () => player.blockBy(1),
+    toStart: () => player.seek(0),
+    toEnd: () => player.seek(player.duration),
+    slower: () => player.faster(-1),
+    faster: () => player.faster(1),
+    loopFrom: () => player.setLoop("from"),
+    loopTo: () => player.setLoop("to"),
+    loop: player.toggleLoop,
+    clearLoop: player.clearLoop,
+  };
+}
+
+/**
  * Actions by name, for buttons with `data-do` and for keys.
  * @param {{ player: Player, stage: Stage, quiz: Quiz, page: PageState, redraw: () => void }} parts
  * @returns {Actions}
@@ -38,17 +63,7 @@ export function actionsOf({ player, stage, quiz, page, redraw }) {
     change();
   });
   return {
-    toggle: player.toggle,
-    stepBack: () => player.stepBy(-1),
-    stepOn: () => player.stepBy(1),
-    hundredBack: () => player.stepBy(-HUNDRED),
-    hundredOn: () => player.stepBy(HUNDRED),
-    blockBack: () => player.blockBy(-1),
-    blockOn: () => player.blockBy(1),
-    toStart: () => player.seek(0),
-    toEnd: () => player.seek(player.duration),
-    slower: () => player.faster(-1),
-    faster: () => player.faster(1),
+    ...playerActions(player),
     zoomIn: zoom(ZOOM),
     zoomOut: zoom(1 / ZOOM),
     fit: looked(stage.fit),
@@ -60,10 +75,6 @@ export function actionsOf({ player, stage, quiz, page, redraw }) {
     }),
     follow: moved(() => page.follow(!page.isFollowing)),
     magnify: moved(() => page.magnify(TIMES[(TIMES.indexOf(page.times) + 1) % TIMES.length])),
-    loopFrom: () => player.setLoop("from"),
-    loopTo: () => player.setLoop("to"),
-    loop: player.toggleLoop,
-    clearLoop: player.clearLoop,
     quiz: quiz.toggle,
     language: language.change,
     help: () => page.help(true),

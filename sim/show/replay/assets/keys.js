@@ -11,7 +11,7 @@ import { element } from "../../html/assets/elements.js";
  * Name of the action of each key, as the page hands it over.
  * @returns {Record<string, string>}
  */
-const readKeys = () => JSON.parse(element("#keys", HTMLElement).textContent ?? "{}");
+export const readKeys = () => JSON.parse(element("#keys", HTMLElement).textContent ?? "{}");
 /** @type {Record<string, string>} */
 const SHIFTED = { ArrowLeft: "panLeft", ArrowRight: "panRight", ArrowUp: "panUp", ArrowDown: "panDown" };
 /**
@@ -28,7 +28,7 @@ const OWN = {
  * Whether the focused control uses a key itself.
  * @param {KeyboardEvent} event
  */
-export function isOwn({ target, key }) {
+function isOwn({ target, key }) {
   return target instanceof Element && Boolean(OWN[target.tagName]?.includes(key));
 }
 
@@ -37,7 +37,7 @@ export function isOwn({ target, key }) {
  * @param {KeyboardEvent} event
  * @param {Record<string, string>} keys
  */
-function actionOf(event, keys) {
+export function actionOf(event, keys) {
   if (event.ctrlKey || event.metaKey || event.altKey || isOwn(event)) return null;
   if (event.shiftKey && SHIFTED[event.key]) return SHIFTED[event.key];
   return keys[event.key.length === 1 ? event.key.toLowerCase() : event.key] || null;

@@ -3,7 +3,7 @@ import { boxesOf, passed } from "./boxes.js";
 import { inkOf } from "./ink.js";
 
 /**
- * @import { Curves, Kind } from "./document.js"
+ * @import { Curves, Kind, Place } from "./document.js"
  * @import { Pen } from "./pen.js"
  * @import { Box, View } from "./view.js"
  */
@@ -14,6 +14,22 @@ const FAR = 4000; // px: arcs of a larger radius are drawn by points, for a canv
 const POINTS = 96; // of such an arc in the window
 const TURN = 2 * Math.PI;
 const LEAST = 0.35; // px: smaller blocks in turn are drawn as one line, up to where it is that long
+
+/**
+ * Where a curve leads after a share of its way, µm.
+ * @param {Curves} path
+ * @param {number} row
+ * @param {number} share
+ * @returns {Place}
+ */
+export function placeOn(path, row, share) {
+  if (path.kind[row] === "arc") {
+    const angle = path.start_angle_rad[row] + share * path.sweep_rad[row];
+    return [path.center_x_um[row] + path.radius_um[row] * Math.cos(angle), path.center_y_um[row] + path.radius_um[row] * Math.sin(angle)];
+  }
+  const [x, y, toX, toY] = [path.place_x_um[row], path.place_y_um[row], path.place_x_um[row + 1], path.place_y_um[row + 1]];
+  return [x + share * (toX - x), y + share * (toY - y)];
+}
 
 /**
  * Curves of a program; `wayTo` adds a block to the pen's path, from where the path ends or from its own start.
