@@ -69,7 +69,7 @@ def index_page(index: Mapping[str, Any], additions: Sequence[BesideTheIndex]) ->
     return rendered(
         _ASSETS,
         "index.html.j2",
-        counts=index["counts"],
+        counts=counts_shown(index["counts"]),
         data={
             "programs": [_program(program, more) for program, more in zip(programs, additions, strict=True)],
             "titles": {code: _title(code)._asdict() for code in codes},
@@ -84,10 +84,20 @@ def _program(program: Mapping[str, Any], more: BesideTheIndex) -> dict[str, Any]
         **program,
         "time": "" if time_s is None else hours_text(time_s),
         "worst_um": program["max_um"] if program["drawing_um"] is None else program["drawing_um"],
-        "verdict": "to-check" if program["to_check"] else program["verdict"],
+        "verdict": outcome_of(program),
         "picture": more.picture,
         "message": more.message._asdict() if more.message.en else None,
     }
+
+
+def outcome_of(program: Mapping[str, Any]) -> str:
+    """The verdict of a program of an index as people are told it."""
+    return "to-check" if program["to_check"] else str(program["verdict"])
+
+
+def counts_shown(counts: Mapping[str, int]) -> dict[str, int]:
+    """Counts of an index as people are told them: what is to be checked does not count among what passes."""
+    return {**counts, "pass": counts["pass"] - counts["to_check"]}
 
 
 def _title(code: str) -> Bilingual:

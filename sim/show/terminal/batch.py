@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from parser.findings.catalogue import Language
+from sim.show.index_page.page import counts_shown, outcome_of
 from sim.show.terminal.colours import COLOURS, styled
 from sim.show.terminal.printer import say
 from sim.show.terminal.wrap import wrapped
@@ -17,16 +18,16 @@ _COUNTED: Final = ("pass", "to_check", "fail", "refused", "fault", "from_cache")
 def print_batch(index: Mapping[str, Any], output: Path, language: Language) -> None:
     """Print what came of a shop: the programs that did not pass, counts, and where the index is."""
     tell = Words(language)
-    bad = [program for program in index["programs"] if program["verdict"] != "pass" or program["to_check"]]
+    bad = [program for program in index["programs"] if outcome_of(program) != "pass"]
     for program in bad[:_MOST]:
-        outcome = "to-check" if program["to_check"] else program["verdict"]
+        outcome = outcome_of(program)
         verdict = tell(f"batch.verdict-{outcome}")
         told_text = tell("batch.bad", file=program["file"], verdict=verdict, why=_why(program))
         for line in wrapped(told_text, indent="    "):
             say(styled(line, COLOURS.get(outcome, COLOURS["fail"])))
     if len(bad) > _MOST:
         say(tell("batch.more", n=f"{len(bad) - _MOST:,}"))
-    counts = index["counts"]
+    counts = counts_shown(index["counts"])
     told_text = tell("phrases.comma").join(
         tell(f"batch.count-{name}", n=f"{counts[name]:,}") for name in _COUNTED if counts[name]
     )

@@ -83,6 +83,6 @@ def test_a_run_and_a_batch_say_so_too(tmp_path: Path) -> None:
     code, out, _ = drycut("run", "--lang", "en", "shop", "-o", "many", cwd=tmp_path)
     assert code == 0
     assert out.splitlines()[0] == "shop/a.3b: to be checked: 3B319"
-    assert "1 of them to be checked" in out
+    assert "1 program: 1 to be checked" in out
     index = json.loads((tmp_path / "many" / "index.json").read_bytes())
     assert (index["programs"][0]["to_check"], index["counts"]["to_check"]) == (True, 1)
