@@ -11,13 +11,13 @@ from drycut.clash import refuse_strangers
 
 if TYPE_CHECKING:
     from parser import __version__ as __version__
-    from parser.dialect.choices import Choices
+    from parser.dialect.reader import Choices
     from parser.drawing.read import read_drawing
     from parser.findings.catalogue import texts
     from parser.findings.errors import DrycutError
     from parser.findings.findings import Finding
     from parser.program import Program, parse_program, read_program
-    from parser.write.iso_choices import iso_choices
+    from parser.write.iso import iso_choices
     from sim.check.file_check import check_program
     from sim.check.own_checks import OwnCheck, OwnCode, OwnFinding, OwnTexts
     from sim.check.result import CheckResult
@@ -95,7 +95,7 @@ __all__ = [
 _HOMES = {
     "CheckResult": "sim.check.result",
     "CheckSettings": "sim.check.settings",
-    "Choices": "parser.dialect.choices",
+    "Choices": "parser.dialect.reader",
     "Comparison": "sim.measure.compare.result",
     "Converted": "sim.make.convert.convert",
     "DrawingTarget": "sim.setup.part",
@@ -124,7 +124,7 @@ _HOMES = {
     "compare_program": "sim.measure.compare.compared_program",
     "convert_program": "sim.make.convert.convert:converted",
     "dry_run": "sim.run.running",
-    "iso_choices": "parser.write.iso_choices",
+    "iso_choices": "parser.write.iso",
     "load_machine": "sim.setup.machine.machine",
     "load_scenario": "sim.setup.scenario",
     "make_program": "sim.make.cam.maker:made_program",

@@ -5,22 +5,20 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from parser.dialect.choices import STANDARD_CHOICES, Choices, Marks
 from parser.dialect.decoding import Decoder
 from parser.dialect.mender import Mender
-from parser.dialect.reader import HeaderValue, Reader, Reading
-from parser.files.kinds import PROGRAMS, kind_of
-from parser.files.reading import read_bytes
+from parser.dialect.reader import STANDARD_CHOICES, Choices, HeaderValue, Marks, Reader, Reading
+from parser.files import PROGRAMS, kind_of, read_bytes
 from parser.findings.errors import ProgramError
 from parser.findings.findings import Finding
 from parser.iso.dialect import ISO
-from parser.iso.profiles.own import own_dialect as own_dialect  # noqa: PLC0414 - handed on
-from parser.iso.profiles.own import own_dialect_schema as own_dialect_schema  # noqa: PLC0414 - handed on
-from parser.iso.profiles.own import own_dialect_text as own_dialect_text  # noqa: PLC0414 - handed on
 from parser.iso.profiles.profile import PROFILES
+from parser.iso.profiles.profile import own_dialect as own_dialect  # noqa: PLC0414 - handed on
+from parser.iso.profiles.profile import own_dialect_schema as own_dialect_schema  # noqa: PLC0414 - handed on
+from parser.iso.profiles.profile import own_dialect_text as own_dialect_text  # noqa: PLC0414 - handed on
 from parser.pmac.dialect import PMAC
 from parser.text.encoding import decode_text, narrow, no_program, printable
-from parser.text.lines import LineIndex
+from parser.text.places import LineIndex
 from parser.threeb.dialect import THREE_B
 from parser.toolpath import Toolpath
 

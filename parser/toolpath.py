@@ -9,8 +9,7 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from parser.controller_words.compensation import Compensation
-from parser.controller_words.step_words import StepWords
+from parser.controller_words import Compensation, StepWords
 from parser.geometry.curves import Bools, CurveKind, Curves, Floats, Ints
 from parser.text.source import Source
 

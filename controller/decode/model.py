@@ -2,10 +2,11 @@
 
 from typing import Annotated, Final, Literal, TypedDict
 
-from parser.documents.fields import (
+from parser.documents import (
     AssumptionEntry,
     Count,
     CurveName,
+    Document,
     Ordinal,
     Point,
     Size,
@@ -16,7 +17,6 @@ from parser.documents.fields import (
     of_length,
     one_of,
 )
-from parser.documents.schema import Document
 
 
 class StepEntry(TypedDict):

@@ -7,7 +7,7 @@ import numpy as np
 from controller.card.core.units import UM_S2_PER_PULSE_MS2, UM_S_PER_PULSE_MS
 from controller.motion.plan import Plan
 from controller.motion.planner import RowLimits
-from parser.controller_words.step_words import StepWords
+from parser.controller_words import StepWords
 from parser.geometry.curves import Floats, Ints
 from parser.toolpath import Toolpath
 

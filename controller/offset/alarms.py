@@ -7,7 +7,7 @@ import numpy as np
 
 from controller.offset.shifted import NOTHING_UM
 from controller.offset.stretches import Runs
-from parser.controller_words.compensation import Compensation, CompensationRules
+from parser.controller_words import Compensation, CompensationRules
 from parser.geometry.curves import Bools, Ints
 from parser.toolpath import Toolpath
 

@@ -10,9 +10,9 @@ from typing import NamedTuple
 import numpy as np
 
 from controller.offset.joints import SHARPEST_RAD
-from parser.controller_words.compensation import Compensation
+from parser.controller_words import Compensation
+from parser.geometry.along import directions, to_left
 from parser.geometry.curves import Curves, Floats
-from parser.geometry.directions import directions, to_left
 
 _TANGENT_RAD = 1e-3
 """Blocks that turn less are tangent: whole µm make as much of it between blocks of some mm."""

@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 from controller.offset.joints import Joining, joints
 from controller.offset.sections import OffsetSection
 from controller.offset.shifted import NOTHING_UM, Blocks, turned_rad
-from parser.controller_words.compensation import Outer
-from parser.geometry.boxes import distinct
+from parser.controller_words import Outer
 from parser.geometry.curves import Floats, Ints
+from parser.geometry.near import distinct
 
 _NONE = -1
 _LESS_SHORT = 0.5

@@ -10,13 +10,11 @@ from numpy.typing import NDArray
 
 from controller.offset.sections import Side
 from controller.offset.slices import groups
-from parser.geometry.along import along_um, headings_along, places_at
-from parser.geometry.broad_phase_places import near_curves, nearest_um
+from parser.geometry.along import along_um, directions, headings_along, places_at, to_left
 from parser.geometry.curves import Curves, Floats, Ints, joined
-from parser.geometry.directions import directions, to_left
-from parser.geometry.distance import distance_to_curves
-from parser.geometry.meets import by_xy, curves_meet
-from parser.shape.closing import CLOSED_WITHIN_UM
+from parser.geometry.distance import by_xy, curves_meet, distance_to_curves
+from parser.geometry.near import near_curves, nearest_um
+from parser.shape.contours import CLOSED_WITHIN_UM
 from parser.toolpath import Point
 
 

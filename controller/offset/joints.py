@@ -11,10 +11,10 @@ from typing import NamedTuple
 import numpy as np
 
 from controller.offset.shifted import NOTHING_UM, Blocks, turned_rad
-from parser.controller_words.compensation import Outer
+from parser.controller_words import Outer
+from parser.geometry.along import headings_at
 from parser.geometry.curves import Bools, CurveKind, Curves, Floats, Ints
-from parser.geometry.directions import headings_at
-from parser.geometry.meets import prolonged_meet
+from parser.geometry.distance import prolonged_meet
 
 SHARPEST_RAD = 0.5 * np.pi + 0.01
 """Turn of the sharpest corner that is lengthened: 90°, and what whole µm make of it between lines of 0.1 mm."""

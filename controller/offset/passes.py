@@ -8,7 +8,7 @@ import numpy as np
 
 from controller.offset.sections import OffsetSection, Round
 from parser.geometry.curves import Bools, Curves, Floats, Ints
-from parser.shape.closing import CLOSED_WITHIN_UM
+from parser.shape.contours import CLOSED_WITHIN_UM
 from parser.toolpath import Stop, Toolpath
 
 

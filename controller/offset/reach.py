@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from controller.offset.sections import Side
 from controller.offset.slices import SNAP_UM, Candidates, Slices, candidates, closed_ring, open_slices
 from parser.geometry.along import places_at
-from parser.geometry.broad_phase_places import nearest_um
 from parser.geometry.curves import Curves, Floats, Ints
+from parser.geometry.near import nearest_um
 
 
 def stitched(cut: Slices, middle_um: Floats, clear_um: Floats, same_um: float) -> tuple[Ints, ...]:

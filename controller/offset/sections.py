@@ -7,8 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from parser.geometry.curves import Ints
-from parser.shape.closing import CLOSED_WITHIN_UM
-from parser.shape.contours import runs
+from parser.shape.contours import CLOSED_WITHIN_UM, runs
 from parser.shape.loops import find_loops
 from parser.toolpath import Toolpath
 

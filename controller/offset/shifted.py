@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from controller.offset.sections import OffsetSection
+from parser.geometry.along import directions, to_left
 from parser.geometry.curves import Curves, Floats, Ints
-from parser.geometry.directions import directions, to_left
-from parser.geometry.meets import prolonged_meet
+from parser.geometry.distance import prolonged_meet
 
 NOTHING_UM = 1e-6
 """No block is as short as this, and no radius as small: far below a step, far above the rounding of places."""

@@ -11,14 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from controller.offset.sections import Side
-from parser.geometry.along import along_um
-from parser.geometry.boxes import cell_keys
-from parser.geometry.broad_phase_pairs import near_pairs
-from parser.geometry.broad_phase_places import near_places
+from parser.geometry.along import along_um, directions, headings_at, to_left
 from parser.geometry.curves import CurveKind, Curves, Floats, Ints, curves_between, joined
-from parser.geometry.directions import directions, headings_at, to_left
-from parser.geometry.distance import distance_to_curves
-from parser.geometry.meets import curves_meet
+from parser.geometry.distance import curves_meet, distance_to_curves
+from parser.geometry.near import cell_keys, near_pairs, near_places
 
 SNAP_UM = 1e-5
 """Places this near each other are one. Double precision keeps ends and crossings within 1e-9 µm over 1 m."""

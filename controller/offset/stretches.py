@@ -6,7 +6,7 @@ import numpy as np
 
 from controller.offset.sections import OffsetSection
 from controller.offset.shifted import NOTHING_UM
-from parser.controller_words.compensation import Compensation, CompensationRules
+from parser.controller_words import Compensation, CompensationRules
 from parser.geometry.curves import Bools, Curves, Floats, Ints
 from parser.toolpath import Toolpath
 

@@ -5,9 +5,9 @@ from typing import NamedTuple
 import numpy as np
 
 from parser.geometry.along import places_at
-from parser.geometry.broad_phase_places import near_places, nearest_um
 from parser.geometry.curves import Bools, Curves, Floats, Ints, curves_between
 from parser.geometry.distance import distance_to_curves
+from parser.geometry.near import near_places, nearest_um
 
 _WITHIN_UM = 0.01  # a hundredth of a step
 

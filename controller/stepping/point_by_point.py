@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from controller.stepping.steps import Steps
 from controller.stepping.strokes import arc_strokes, line_strokes, reached, walk_arcs
-from parser.controller_words.step_words import Axis, StepWords
+from parser.controller_words import Axis, StepWords
 from parser.geometry.curves import Bools, Floats, Ints
 
 Number = TypeVar("Number", np.int64, np.float64)

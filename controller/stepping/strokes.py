@@ -20,7 +20,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.controller_words.step_words import Axis
+from parser.controller_words import Axis
 from parser.geometry.curves import Bools, Floats, Ints
 
 # Rows: quarter turns 0..3. Columns: dx, dy of a step toward the centre (u falls) and of a step away from it (v rises).

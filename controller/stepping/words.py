@@ -4,9 +4,9 @@ import numpy as np
 
 from controller.stepping.point_by_point import interpolate_words
 from controller.stepping.steps import Steps
-from parser.controller_words.step_words import StepWords
+from parser.controller_words import StepWords
 from parser.geometry.curves import Curves, Floats, Ints
-from parser.step_words.rules import words_of_arcs, words_of_lines
+from parser.step_words.words import words_of_arcs, words_of_lines
 from parser.toolpath import Toolpath
 
 

@@ -2,7 +2,7 @@
 
 from typing import NamedTuple, Protocol
 
-from parser.controller_words.step_words import Axis
+from parser.controller_words import Axis
 from parser.findings.findings import Edit
 from parser.text.source import Field
 from parser.toolpath import Toolpath

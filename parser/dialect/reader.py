@@ -1,22 +1,116 @@
-"""A reader: what it makes of the text of a program, and what it says of it, whatever the dialect."""
+"""A reader: what it makes of the text of a program, and what it says of it, whatever the dialect.
 
+What is told of a program besides its text, whatever the dialect: marks, family, unit and offset registers.
+
+Findings at blocks: the place is that of the field which is wrong.
+"""
+
+import re
 from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from parser.dialect.choices import Choices, Marks
 from parser.dialect.decoding import Decoder
 from parser.dialect.mender import Mender
-from parser.documents.fields import AssumptionEntry
+from parser.documents import AssumptionEntry
 from parser.findings.catalogue import Language, term
 from parser.findings.codes import Check
-from parser.findings.findings import Finding
+from parser.findings.findings import Finding, Value
 from parser.geometry.curves import Ints
-from parser.text.lines import LineIndex
-from parser.text.source import Span
+from parser.text.places import LineIndex
+from parser.text.source import Field, Span
 from parser.toolpath import Toolpath
+
+
+class Marks(NamedTuple):
+    """Words between blocks that a machine knows besides those of the dialect.
+
+    Attributes
+    ----------
+    end, pause
+        Marks that end the program and that pause it; letters alone.
+    """
+
+    end: tuple[str, ...] = ()
+    pause: tuple[str, ...] = ()
+
+
+STANDARD_MARKS = Marks()
+
+
+UNITS = ("um", "mm", "inch")
+"""Units in which the numbers of a program may be told to stand (docs/iso.md §4)."""
+
+
+_REGISTER = re.compile(r"([DH])0*(\d{1,4})", re.ASCII | re.IGNORECASE)
+
+
+Registers = tuple[tuple[str, float], ...]
+"""Values of offset registers, µm, by their names."""
+
+
+class OwnDialect(NamedTuple):
+    """A dialect of a shop's own.
+
+    Attributes
+    ----------
+    name
+        As people call it; none of a profile.
+    base
+        Name of the profile that it changes.
+    changed
+        The values that it has in place of those, JSON.
+    """
+
+    name: str
+    base: str
+    changed: str
+
+    def __str__(self) -> str:
+        return self.name
+
+
+ChosenDialect = str | OwnDialect
+"""The name of a profile, or a dialect of one's own; empty where the text is to tell it."""
+
+
+class Choices(NamedTuple):
+    """What is told of a program besides its text, by options, settings and machine files.
+
+    Attributes
+    ----------
+    marks
+        Further marks.
+    dialect
+        Its dialect, such as ``fanuc``; empty where the text is to tell it.
+    unit
+        Of its numbers: ``um``, ``mm`` or ``inch``; empty where text and dialect tell it.
+    registers
+        Values of offset registers, µm, by their names without leading zeros: ``("D0", 100.0)``. What the program says
+        itself counts before them.
+    """
+
+    marks: Marks = STANDARD_MARKS
+    dialect: ChosenDialect = ""
+    unit: str = ""
+    registers: Registers = ()
+
+
+STANDARD_CHOICES = Choices()
+
+
+def register_name(text: str) -> str:
+    """Name of an offset register in capitals and without leading zeros, ``D1`` of ``d01``; empty where it is none."""
+    match = _REGISTER.fullmatch(text.strip())
+    return f"{match[1].upper()}{match[2]}" if match else ""
+
+
+def merged(tables: Iterable[Registers]) -> Registers:
+    """Registers of several tables, by their names; where two give one, the later counts."""
+    return tuple(sorted(dict(pair for table in tables for pair in table).items()))
+
 
 HeaderValue = str | float | tuple[float, ...] | None
 """What a header says of one thing: a text, a number or some; None or empty where it does not say it."""
@@ -218,3 +312,21 @@ class Reader(Protocol):
 
     def read(self, text: str, choices: Choices) -> ReadText:
         """What a text says. ProgramError (3B100) where it holds no block."""
+
+
+def at_block(
+    toolpath: Toolpath, lines: LineIndex, code: str, row: int, field: Field | None = None, /, **values: Value
+) -> Finding:
+    """Finding at a field of the block in a row (from 0) of the toolpath, or at the whole block.
+
+    A field that is not written, or stands empty, is the whole block too.
+    """
+    return lines.finding(code, _span(toolpath, row, field), int(toolpath.source.block[row]), **values)
+
+
+def _span(toolpath: Toolpath, row: int, field: Field | None) -> Span:
+    span = toolpath.source.field(row, field) if field is not None else None
+    if span is not None and span[1] > span[0]:
+        return span
+    first, past = toolpath.source.span[row].tolist()
+    return first, past

@@ -10,11 +10,16 @@ from ezdxf.entities.dxfentity import DXFEntity
 from ezdxf.entities.insert import Insert
 
 from parser.drawing.dxf.blocks import Placed
-from parser.drawing.dxf.entities import reader_of
-from parser.drawing.dxf.forms import COLUMNS, ReadEntity, Spline, WrongNumbersError, behind
+from parser.drawing.dxf.entities import (
+    COLUMNS,
+    ReadEntity,
+    Spline,
+    WrongNumbersError,
+    behind,
+    reader_of,
+)
 from parser.drawing.model import SAME_WITHIN_UM
-from parser.drawing.plane.flat import Flat, flat_forms, refuse_many
-from parser.drawing.plane.splined import flat_splines, placed_spline
+from parser.drawing.plane import Flat, flat_forms, flat_splines, placed_spline, refuse_many
 from parser.findings.catalogue import Remark
 from parser.geometry.curves import Curves, Floats, Ints, joined
 from parser.text.encoding import printable

@@ -18,20 +18,23 @@ from ezdxf.document import Drawing as Document
 from ezdxf.math import Vec3
 
 from parser.drawing.dxf.blocks import Placed, placed_entities
-from parser.drawing.dxf.document import read_document
-from parser.drawing.dxf.entities import reader_of
-from parser.drawing.dxf.forms import behind, of_extrusion, place_of, scaled
-from parser.drawing.dxf.linetypes import Linetypes
-from parser.drawing.fit.loops import loops_with_arcs
+from parser.drawing.dxf.document import Linetypes, read_document
+from parser.drawing.dxf.entities import (
+    behind,
+    of_extrusion,
+    place_of,
+    reader_of,
+    scaled,
+)
+from parser.drawing.fit.curves import loops_with_arcs
 from parser.drawing.gather import Gathered, Missed, gather
 from parser.drawing.loops.chain import Chained, chain, without_flat
+from parser.drawing.loops.joints import welded
 from parser.drawing.loops.once import Again, drawn_once
-from parser.drawing.loops.weld import welded
 from parser.drawing.model import DEFAULT_FLATTEN_UM, DEFAULT_GAP_UM, Drawing, Entity, FitFigures, LeftOut, Mark
-from parser.drawing.plane.flat import FARTHEST_UM
+from parser.drawing.plane import FARTHEST_UM
 from parser.findings.catalogue import LANGUAGES, Bilingual, Remark, remark_text
-from parser.findings.errors import DrawingError
-from parser.findings.messages import Message
+from parser.findings.errors import DrawingError, Message
 from parser.geometry.curves import Floats
 from parser.text.encoding import printable
 from parser.units import UM_PER_MM, mm

@@ -12,7 +12,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Literal, NamedTuple
 
-from parser.documents.fields import SaidEntry
+from parser.documents import SaidEntry
 from parser.findings.codes import CODES
 from parser.findings.findings import NO_NAMES, Finding, Value
 from parser.units import UM_PER_MM, mm, mm_text

@@ -1,11 +1,113 @@
 """The family of errors drycut raises for bad input; each is one clear line for a person.
 
 Every error doubles as the built-in that a caller without drycut's names would catch.
+
+What drycut says of wrong settings, files and options: a code with its values, in English and Chinese.
+
+The texts stand in ``parser/findings/pages/messages.toml``, one code a line. A finding is something in a program; a
+message is all else that a user may be told is wrong.
 """
 
-from parser.findings.catalogue import LANGUAGES, Bilingual, texts
+import errno
+from collections.abc import Callable, Iterable, Mapping
+from types import MappingProxyType
+from typing import Final
+
+from parser.findings.catalogue import LANGUAGES, Bilingual, Language, filled, message_templates, texts
 from parser.findings.findings import Finding
-from parser.findings.messages import Message, in_both
+
+_OF_THE_SYSTEM: Final[Mapping[int, str]] = {
+    errno.ENOENT: "no-such-file-or-directory",
+    errno.EACCES: "permission-denied",
+    errno.EISDIR: "is-a-directory",
+    errno.ENOTDIR: "not-a-directory",
+    errno.ENAMETOOLONG: "file-name-too-long",
+    errno.ENOSPC: "no-space-left",
+    errno.EROFS: "read-only-file-system",
+    errno.ELOOP: "too-many-links",
+}
+_NUL: Final = "embedded null byte"
+"""What Python says of a name that holds one."""
+
+
+class Message(str):
+    """A message by its code and values; as a ``str`` it is its English text, which libraries such as click take.
+
+    Values are numbers, names that users gave, other messages, and texts in both languages (`Bilingual`). Only messages
+    and such texts have another language: a name stays as it is. KeyError for a code without text, or a value that its
+    text has a place for and that is missing.
+    """
+
+    __slots__ = ("code", "values")
+
+    code: str
+    values: Mapping[str, object]
+
+    def __new__(cls, code: str, /, **values: object) -> "Message":
+        """A message of a code."""
+        made = super().__new__(cls, _text(code, values, "en"))
+        made.code, made.values = code, MappingProxyType(values)
+        return made
+
+    def __reduce__(self) -> tuple[Callable[..., "Message"], tuple[str, dict[str, object]]]:
+        """As other processes get it."""
+        return _again, (self.code, dict(self.values))
+
+    @property
+    def en(self) -> str:
+        """The English text."""
+        return str(self)
+
+    @property
+    def zh(self) -> str:
+        """The Chinese text."""
+        return _text(self.code, self.values, "zh")
+
+    def with_values(self, change: Callable[[object], object]) -> "Message":
+        """The same with other values; messages among them are changed within."""
+        return Message(
+            self.code,
+            **{
+                name: value.with_values(change) if isinstance(value, Message) else change(value)
+                for name, value in self.values.items()
+            },
+        )
+
+
+def did_you_mean(name: str, known: Iterable[str], otherwise: Message, most: int = 1) -> Message:
+    """The hint behind a name that is none: known ones that begin with it, or are like it; or what else helps."""
+    import difflib  # noqa: PLC0415 - few names are misspelt
+
+    by_capitals = {each.upper(): each for each in known}
+    beginning = sorted(each for each in by_capitals if name and each.startswith(name.upper()))
+    near = beginning[:most] or sorted(difflib.get_close_matches(name.upper(), by_capitals, n=most))
+    names = ", ".join(by_capitals[each] for each in near)
+    return Message("did-you-mean", name=names) if near else otherwise
+
+
+def in_both(text: str) -> Bilingual:
+    """A text in both languages; one that is no message, such as that of a library, is the same in both."""
+    return Bilingual(text.en, text.zh) if isinstance(text, Message) else Bilingual(text, text)
+
+
+def system_message(error: OSError | ValueError) -> str:
+    """What the system says of a file; a message where it is one that users often see.
+
+    ValueError is what Python raises of a name with a NUL.
+    """
+    code = _OF_THE_SYSTEM.get(getattr(error, "errno", None) or 0)
+    if code is not None:
+        return Message(code)
+    why = str(getattr(error, "strerror", None) or error)
+    return Message("embedded-null-byte") if why == _NUL else why
+
+
+def _again(code: str, values: dict[str, object]) -> Message:
+    return Message(code, **values)
+
+
+def _text(code: str, values: Mapping[str, object], language: Language) -> str:
+    return filled(getattr(message_templates()[code], language), values, language)
 
 
 class DrycutError(Exception):

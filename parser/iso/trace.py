@@ -11,8 +11,8 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from parser.dialect.choices import Choices
 from parser.dialect.decoding import UNREAD, DecodedBlock, DecodeStep, InForce
+from parser.dialect.reader import Choices
 from parser.iso.listing.listing import Assignment, Listing
 from parser.iso.path.flow import GivenColumns, flow
 from parser.iso.path.places import NO_MOTION, carried, modes

@@ -14,17 +14,16 @@ from parser.geometry.curves import Ints
 from parser.pmac.expressions import (
     NotAnExpressionError,
     Parsed,
+    Values,
     Worked,
     combined,
     indexed,
     parse_parenthesised,
     parse_sum,
 )
-from parser.pmac.macros import Expanded, expanded
-from parser.pmac.online import Online
-from parser.pmac.values import Values
+from parser.pmac.macros import Expanded, Online, expanded
 from parser.text.encoding import narrow
-from parser.text.lines import LineIndex
+from parser.text.places import LineIndex
 from parser.text.source import Span
 
 _NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)"

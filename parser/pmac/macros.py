@@ -1,8 +1,4 @@
-"""Directives of the download: names that ``#define`` gives a text, and lines that ``#ifdef`` leaves out.
-
-The card never sees them: the program that sends the file to it works them out (Turbo PMAC User's Manual, "Communicating
-with the host", on substitution macros). Macros with parameters and included files are not worked out.
-"""
+"""What a text says outside of motion programs: directives of the download, and commands to the card itself."""
 
 import re
 from typing import NamedTuple
@@ -10,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from parser.geometry.curves import Ints
+from parser.pmac.expressions import UnknownValue, Values, Worked
 from parser.text.source import Span
 
 _DIRECTIVE = re.compile(r"[ \t]*#[ \t]*(define|undef|include|ifdef|ifndef|else|endif)\b([^\r\n]*)", re.IGNORECASE)
@@ -135,3 +132,57 @@ class _Expansion:
         self.text.append(body)
         self.begins.append(np.full(len(body), span[0], dtype=np.int64))
         self.pasts.append(np.full(len(body), span[1], dtype=np.int64))
+
+
+_PLAIN = re.compile(r"M(\d+)->\*")
+_STARTED = re.compile(r"B(\d+)R")
+
+
+class Online:
+    """The card as the text leaves it, line by line.
+
+    Attributes
+    ----------
+    started
+        Number of the program that is started; None without one.
+    """
+
+    def __init__(self, values: Values) -> None:
+        self._values = values
+        self._system = ""
+        self._systems: dict[str, str] = {}
+        self._open = set[str]()
+        self.started: int | None = None
+
+    def command(self, name: str) -> None:
+        """A command in capitals without blanks."""
+        if name.startswith("&"):
+            self._system = name
+        elif plain := _PLAIN.match(name):
+            self._values.define_plain(f"M{int(plain[1])}")
+        elif started := _STARTED.fullmatch(name):
+            self.started = int(started[1])
+
+    def assign(self, name: str, worked: Worked | None, *, in_another: bool) -> None:
+        """A variable that gets a value; `in_another` where a PLC gives it, which runs when it likes.
+
+        A letter alone is a variable whose number is a sum: any of the letter may change.
+        """
+        if in_another or worked is None or len(name) == 1:
+            self._open.add(name)
+            return
+        if name[0] == "Q" and self._systems.setdefault(name, self._system) != self._system:
+            self._open.add(name)  # each coordinate system has Q variables of its own
+        try:
+            self._values.set(name, worked(self._values))
+        except UnknownValue:
+            self._values.forget(name)
+
+    def at_start(self) -> Values:
+        """The values when a program starts, without those that something else gives."""
+        for name in self._open:
+            if len(name) == 1:
+                self._values.forget_all(name)
+            else:
+                self._values.forget(name)
+        return self._values

@@ -10,12 +10,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.findings.facts import TooLarge
-from parser.findings.findings import Value
+from parser.findings.findings import TooLarge, Value
 from parser.geometry.curves import Bools, CurveKind, Floats, Ints
+from parser.pmac.expressions import UnknownValue
 from parser.pmac.lines import Kind, Line, Piece
 from parser.pmac.state import Move, State
-from parser.pmac.values import UnknownValue
 from parser.text.source import Span
 from parser.toolpath import Stop, Toolpath
 from parser.units import from_mm, mm

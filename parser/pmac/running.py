@@ -10,12 +10,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from parser.findings.findings import Value
-from parser.pmac.expressions import indexed
+from parser.pmac.expressions import UnknownValue, Values, indexed
 from parser.pmac.flow import Order, OrderKind, Orders, orders_of
 from parser.pmac.lines import NAMED_ELSEWHERE, Buffer, Kind, Line, Piece
 from parser.pmac.moves import MovedLine
 from parser.pmac.state import Halt, State
-from parser.pmac.values import UnknownValue, Values
 from parser.text.source import Span
 
 ROUTINES: Mapping[str, int] = {"G": 1000, "M": 1001, "T": 1002, "D": 1003}

@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from parser.findings.findings import Fact, Value
+from parser.pmac.expressions import Values
 from parser.pmac.lines import Line, Piece
-from parser.pmac.values import Values
 from parser.text.source import Span
 from parser.toolpath import Stop
 

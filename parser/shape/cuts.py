@@ -9,13 +9,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.geometry.boxes import distinct
-from parser.geometry.broad_phase_places import near_places
 from parser.geometry.curves import Bools, Floats, Ints, extents
 from parser.geometry.distance import distance_to_curves
-from parser.shape.closing import CLOSED_WITHIN_UM
-from parser.shape.contours import runs
-from parser.shape.loops import find_loops
+from parser.geometry.near import distinct, near_places
+from parser.shape.contours import CLOSED_WITHIN_UM, runs
+from parser.shape.loops import find_loops, several_loops
 from parser.shape.open_edges import (
     AT_END_UM,
     MOST_ASIDE_UM,
@@ -28,7 +26,6 @@ from parser.shape.open_edges import (
     sections_of_tours,
 )
 from parser.shape.parallel_runs import BESIDE_UM, Stretches, run_beside
-from parser.shape.several_loops import several_loops
 from parser.toolpath import Toolpath
 
 _BOX_UM = 2.0 * BESIDE_UM

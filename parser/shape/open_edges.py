@@ -12,10 +12,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.geometry.along import places
+from parser.geometry.along import directions, headings, places
 from parser.geometry.curves import Bools, Floats, Ints, total_before
-from parser.geometry.directions import directions, headings
-from parser.shape.closing import CLOSED_WITHIN_UM
+from parser.shape.contours import CLOSED_WITHIN_UM
 from parser.shape.parallel_runs import neighbours
 from parser.toolpath import Toolpath
 

@@ -5,11 +5,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.geometry.along import headings_along, places_at
-from parser.geometry.broad_phase_places import Near, near_places
+from parser.geometry.along import headings_along, headings_at, places_at
 from parser.geometry.curves import Curves, Floats, Ints, extents, total_before
-from parser.geometry.directions import headings_at
 from parser.geometry.distance import feet
+from parser.geometry.near import Near, near_places
 from parser.toolpath import Toolpath
 
 BESIDE_UM = 400.0

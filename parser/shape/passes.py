@@ -12,9 +12,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.geometry.along import places
+from parser.geometry.along import headings, places
 from parser.geometry.curves import Bools, Floats, Ints
-from parser.geometry.directions import headings
 from parser.shape.contours import contour_rows, runs
 from parser.shape.cuts import Cuts, edges_of, find_cuts
 from parser.shape.loops import part_sides

@@ -15,13 +15,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.controller_words.step_words import Axis, StepWords
+from parser.controller_words import Axis, StepWords
 from parser.geometry.curves import Bools, Curves, Floats
-from parser.step_words.moves import moves
-from parser.step_words.rules import (
+from parser.step_words.words import (
     MOST_SHIFT,
     MOST_SWEEP_RAD,
     chosen,
+    moves,
     words_of_arcs,
     words_of_lines,
     words_of_told_arcs,

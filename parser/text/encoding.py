@@ -22,7 +22,7 @@ import unicodedata
 from collections.abc import Callable
 from typing import Final
 
-from parser.files.kinds import HINTS
+from parser.files import HINTS
 from parser.findings.errors import ProgramError
 from parser.findings.findings import Finding
 

@@ -6,10 +6,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.findings.facts import DamagedBlock
-from parser.findings.findings import Finding
+from parser.findings.findings import DamagedBlock, Finding
 from parser.geometry.curves import Ints
-from parser.text.lines import LineIndex
+from parser.text.places import LineIndex
 from parser.threeb.tokens import FLAGS, LABEL
 
 _INKED_LINE = re.compile(r"[^\s\0-\x1f][^\r\n]*")

@@ -2,19 +2,22 @@
 
 import numpy as np
 
-from parser.dialect.choices import Choices
-from parser.dialect.reader import BlockCounts, Damage, Reading, ReadText, Spelling
+from parser.dialect.reader import BlockCounts, Choices, Damage, Reading, ReadText, Spelling
 from parser.findings.codes import Check
 from parser.findings.errors import ProgramError
-from parser.findings.facts import TooLarge, telling
-from parser.findings.findings import Finding, file_order
-from parser.step_words.labels import SENSES
+from parser.findings.findings import Finding, TooLarge, file_order, telling
+from parser.step_words.words import SENSES
 from parser.text.encoding import narrow, no_program
-from parser.threeb.block_checks import block_findings
+from parser.threeb.block_checks import (
+    block_findings,
+    damaged_after,
+    dialect,
+    lost_blocks,
+    order_findings,
+)
 from parser.threeb.columns import RawBlocks
 from parser.threeb.decode import decode
 from parser.threeb.mend import MENDER
-from parser.threeb.order_checks import damaged_after, dialect, lost_blocks, order_findings
 from parser.threeb.print_checks import print_findings
 from parser.threeb.reader import Records, read_records
 from parser.threeb.tokens import BLOCK_WORDS, LIKE_A_BLOCK, OWN_MARKS

@@ -14,9 +14,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.dialect.choices import STANDARD_MARKS, Marks
+from parser.dialect.reader import STANDARD_MARKS, Marks
 from parser.text.encoding import narrow
-from parser.text.lines import LineIndex
+from parser.text.places import LineIndex
 from parser.text.source import Field, Span
 
 OWN_MARKS = Marks(end=("DD",), pause=("D",))

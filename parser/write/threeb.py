@@ -7,11 +7,11 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from parser.controller_words.step_words import Axis, StepWords
+from parser.controller_words import Axis, StepWords
 from parser.geometry.curves import Bools, CurveKind, Floats, Ints
 from parser.step_words.chained import Chained, chained_words
-from parser.step_words.labels import label
-from parser.step_words.nearest.nearest import nearest_words
+from parser.step_words.nearest import nearest_words
+from parser.step_words.words import label
 from parser.units import mm
 from parser.write.draft import Draft, Written
 

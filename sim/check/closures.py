@@ -4,14 +4,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from parser.dialect.at_block import at_block
 from parser.dialect.mender import Suspect
-from parser.findings.facts import WrongBlock, telling
-from parser.findings.findings import Fact, Finding, Value
+from parser.dialect.reader import at_block
+from parser.findings.findings import Fact, Finding, Value, WrongBlock, telling
 from parser.geometry.curves import Ints
 from parser.program import Program
-from parser.shape.closing import CLOSED_WITHIN_UM
-from parser.shape.contours import Contour
+from parser.shape.contours import CLOSED_WITHIN_UM, Contour
 from parser.shape.loops import end_in_waste
 
 STEPPED_CLOSURE_UM = 12.0

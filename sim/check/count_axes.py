@@ -6,13 +6,18 @@ import numpy as np
 
 from controller.stepping.steps import Steps
 from controller.stepping.words import interpolate, words_of
-from parser.controller_words.step_words import Axis, StepWords
-from parser.dialect.at_block import at_block
-from parser.findings.facts import DoubtfulEnd, PrintedElsewhere, WrongBlock, telling
-from parser.findings.findings import Finding
+from parser.controller_words import Axis, StepWords
+from parser.dialect.reader import at_block
+from parser.findings.findings import (
+    DoubtfulEnd,
+    Finding,
+    PrintedElsewhere,
+    WrongBlock,
+    telling,
+)
 from parser.geometry.curves import Bools, Floats, Ints
 from parser.program import Program
-from parser.step_words.rules import counted_way
+from parser.step_words.words import counted_way
 from parser.text.source import Field
 from parser.toolpath import Toolpath
 

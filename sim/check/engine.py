@@ -6,8 +6,7 @@ from controller.stepping.steps import Steps
 from controller.stepping.words import interpolate
 from parser.dialect.reader import in_codes
 from parser.findings.codes import Check
-from parser.findings.facts import TooLarge, telling
-from parser.findings.findings import Finding, file_order
+from parser.findings.findings import Finding, TooLarge, file_order, telling
 from parser.program import Program, parse_program
 from parser.shape.contours import Contour, find_contours
 from sim.check.compensation.words import compensation_of

@@ -11,13 +11,12 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 
 import numpy as np
 
-from parser.files.reading import read_bytes
+from parser.files import read_bytes
 from parser.findings.errors import DrycutError, FileUnreadableError, ProgramError
-from parser.findings.facts import DamagedBlock, telling
-from parser.findings.findings import Finding
+from parser.findings.findings import DamagedBlock, Finding, telling
 from parser.program import Program, load_program, none_there
 from parser.text.encoding import decode_text
-from parser.text.lines import LineIndex
+from parser.text.places import LineIndex
 from parser.text.source import Source
 from sim.check.engine import PARSER_CHECKS, PATH_CHECKS, Checked, run_checks
 from sim.check.own_checks import with_own_checks

@@ -6,8 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from parser.findings.errors import FileUnreadableError
-from parser.findings.messages import Message
+from parser.findings.errors import FileUnreadableError, Message
 from parser.program import suffixes
 
 

@@ -6,14 +6,22 @@ from itertools import islice
 from typing import NamedTuple
 
 from controller.stepping.words import words_of
-from parser.controller_words.step_words import Axis
+from parser.controller_words import Axis
 from parser.dialect.mender import Mend, Mender
-from parser.findings.facts import CountedElsewhere, DoubtfulEnd, NoEnd, PrintedElsewhere, WrongLabel, telling
-from parser.findings.findings import Edit, Finding
+from parser.findings.findings import (
+    CountedElsewhere,
+    DoubtfulEnd,
+    Edit,
+    Finding,
+    NoEnd,
+    PrintedElsewhere,
+    WrongLabel,
+    telling,
+)
 from parser.program import Program
 from parser.shape.contours import Contour
 from parser.shape.loops import is_circle
-from parser.text.lines import LINE_END
+from parser.text.places import LINE_END
 from parser.text.source import Field
 from sim.check.blame.cases import MOST_PRINTED
 from sim.check.blame.settle import WrongWord

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from parser.dialect.at_block import at_block
+from parser.dialect.reader import at_block
 from parser.findings.findings import Finding
 from parser.geometry.curves import Ints
 from parser.program import Program

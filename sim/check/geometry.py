@@ -5,10 +5,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from parser.dialect.at_block import at_block
+from parser.dialect.reader import at_block
 from parser.findings.codes import Severity
-from parser.findings.facts import OddShape, TightCorner
-from parser.findings.findings import Fact, Finding, Value
+from parser.findings.findings import Fact, Finding, OddShape, TightCorner, Value
 from parser.geometry.curves import Ints
 from parser.program import Program
 from parser.shape.passes import Passes

@@ -10,14 +10,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.dialect.at_block import at_block
+from parser.dialect.reader import at_block
 from parser.findings.findings import Finding
-from parser.geometry.along import corners, deepest
+from parser.geometry.along import corners, deepest, runs_back_over
 from parser.geometry.curves import Bools, Curves, Floats, Ints, curves_between
-from parser.geometry.directions import runs_back_over
 from parser.geometry.distance import distance_to_curves
 from parser.program import Program
-from parser.shape.closing import CLOSED_WITHIN_UM
+from parser.shape.contours import CLOSED_WITHIN_UM
 from parser.shape.passes import Pass, Passes, leads_of
 from parser.toolpath import Toolpath
 from parser.units import mm

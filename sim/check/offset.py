@@ -9,7 +9,7 @@ from controller.offset.gouges import TOLERANCE_UM, Gouge
 from controller.offset.passes import NoWayBack, PassedPath
 from controller.offset.rows import OffsetPath
 from controller.offset.sections import OffsetSection
-from parser.dialect.at_block import at_block
+from parser.dialect.reader import at_block
 from parser.findings.findings import Fact, Finding, Value
 from parser.geometry.along import places
 from parser.geometry.curves import Floats, Ints

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
-from parser.files.reading import read_bytes
+from parser.files import read_bytes
 from parser.findings.errors import FileUnreadableError
 from sim.base.workers.makers import Maker, made_by, refuse_other_makers
 from sim.base.workers.processes import Pool

@@ -8,11 +8,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from parser.dialect.at_block import at_block
-from parser.findings.facts import OddShape
-from parser.findings.findings import Finding
+from parser.dialect.reader import at_block
+from parser.findings.findings import Finding, OddShape
+from parser.geometry.along import directions
 from parser.geometry.curves import Ints
-from parser.geometry.directions import directions
 from parser.geometry.distance import distance_to_curves
 from parser.program import Program
 from parser.shape.parallel_runs import BESIDE_UM

@@ -8,8 +8,7 @@ import numpy as np
 from controller.stepping.steps import Steps
 from controller.stepping.words import interpolate
 from parser.findings.codes import Check
-from parser.findings.facts import DoubtfulEnd, telling
-from parser.findings.findings import Finding
+from parser.findings.findings import DoubtfulEnd, Finding, telling
 from parser.geometry.curves import Ints
 from parser.program import Program
 from parser.shape.contours import Contour, contour_rows

@@ -7,13 +7,12 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from parser.controller_words.step_words import StepWords
-from parser.dialect.at_block import at_block
-from parser.findings.facts import OfAddedOffset
-from parser.findings.findings import Finding
-from parser.geometry.boxes import distinct
+from parser.controller_words import StepWords
+from parser.dialect.reader import at_block
+from parser.findings.findings import Finding, OfAddedOffset
+from parser.geometry.along import Directions, directions, headings_at
 from parser.geometry.curves import Floats, Ints
-from parser.geometry.directions import Directions, directions, headings_at
+from parser.geometry.near import distinct
 from parser.program import Program
 from parser.shape.loops import find_loops
 from parser.shape.passes import Passes

@@ -9,18 +9,16 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from parser.dialect.at_block import at_block
+from parser.dialect.reader import at_block
 from parser.findings.codes import Severity
-from parser.findings.facts import WrongBlock
-from parser.findings.findings import Finding
+from parser.findings.findings import Finding, WrongBlock
 from parser.geometry.along import places
 from parser.geometry.curves import Bools, Curves, Floats, Ints, is_inside, total_before
 from parser.geometry.distance import distance_to_curves
 from parser.program import Program
 from parser.shape.contours import runs
-from parser.shape.loops import find_loops
+from parser.shape.loops import find_loops, loops_in_order
 from parser.shape.passes import Pass, Passes
-from parser.shape.several_loops import loops_in_order
 from parser.toolpath import Toolpath
 
 _WIDEST_TAB = 0.25  # of the length of a loop: what is longer is no tab

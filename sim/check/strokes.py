@@ -10,15 +10,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.dialect.at_block import at_block
-from parser.findings.facts import OddOrder
-from parser.findings.findings import Finding
-from parser.geometry.boxes import distinct
+from parser.dialect.reader import at_block
+from parser.findings.findings import Finding, OddOrder
+from parser.geometry.along import directions, runs_back_over
 from parser.geometry.curves import Bools, Floats, Ints
-from parser.geometry.directions import directions, runs_back_over
+from parser.geometry.near import distinct
 from parser.program import Program
-from parser.shape.closing import CLOSED_WITHIN_UM
-from parser.shape.contours import Contour, runs
+from parser.shape.contours import CLOSED_WITHIN_UM, Contour, runs
 from parser.shape.passes import Passes
 from parser.toolpath import Toolpath
 

@@ -10,11 +10,10 @@ import numpy as np
 
 from controller.stepping.steps import Steps
 from controller.stepping.words import interpolate
-from parser.controller_words.step_words import Axis
-from parser.dialect.at_block import at_block
+from parser.controller_words import Axis
+from parser.dialect.reader import at_block
 from parser.findings.errors import ProgramError
-from parser.findings.facts import TooLarge, telling
-from parser.findings.findings import Finding
+from parser.findings.findings import Finding, TooLarge, telling
 from parser.geometry.curves import Floats, extents
 from parser.program import Program
 from parser.text.source import Field

@@ -10,8 +10,7 @@ import click
 
 from controller.compiled.compiling import on_compiling
 from parser import __version__
-from parser.findings.errors import DrycutError
-from parser.findings.messages import Message, system_message
+from parser.findings.errors import DrycutError, Message, system_message
 from sim.cli.extras import missing
 from sim.cli.spoken import SpokenGroup, complaint, localised, spoken, words
 from sim.show.terminal.printer import say, write

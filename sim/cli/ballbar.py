@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from parser.findings.messages import Message
+from parser.findings.errors import Message
 from sim.cli.lengths import Length
 from sim.cli.scenario_options import ENGINE_OPTION
 from sim.cli.spoken import Spoken, spoken, words

@@ -11,7 +11,7 @@ from sim.cli.spoken import Spoken, spoken, words
 from sim.cli.spoken.values import FilePath
 
 if TYPE_CHECKING:
-    from parser.dialect.choices import ChosenDialect
+    from parser.dialect.reader import ChosenDialect
     from parser.program import Program
     from sim.setup.scenario import Scenario
 

@@ -5,17 +5,17 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
-from parser.findings.messages import Message
+from parser.findings.errors import Message
 from sim.cli.dialect_options import Dialect, Offsets, OrRegister, offsets_of
 from sim.cli.lengths import Length
 from sim.cli.spoken import Spoken, spoken
 from sim.cli.spoken.values import FilePath, WholeNumber
 
 if TYPE_CHECKING:
-    from parser.dialect.choices import Choices
+    from parser.dialect.reader import Choices
     from parser.findings.catalogue import Language as Tongue
     from parser.program import Program
-    from parser.write.iso_choices import IsoChoices, Unit
+    from parser.write.iso import IsoChoices, Unit
     from parser.write.pmac import PmacChoices
     from sim.make.convert.wanted import Language, Wanted
 
@@ -163,7 +163,7 @@ def _refuse_misfits(options: _ConvertOptions, language: "Language") -> None:
 
 def _choices(options: _ConvertOptions, language: "Language", given: Offsets) -> "Choices":
     """What the program is read with: --dialect and --unit say it where nothing of ISO is written."""
-    from parser.dialect.choices import Choices, merged
+    from parser.dialect.reader import Choices, merged
 
     is_written = language == "iso"
     dialect, unit = (options.from_dialect, options.from_unit) if is_written else (options.dialect, options.unit)
@@ -211,7 +211,7 @@ def _pmac(options: _ConvertOptions, program: "Program") -> "PmacChoices":
 def _iso(options: _ConvertOptions, program: "Program") -> "IsoChoices":
     """Choices of ISO: of the dialect that is asked for, else of that which was read, else of fast wire."""
     from parser.program import dialects
-    from parser.write.iso_choices import iso_choices
+    from parser.write.iso import iso_choices
 
     own = program.reading.dialect if program.reading.dialect in dialects() else "fast-wire"
     usual = iso_choices(options.dialect or own, options.unit, options.decimals)

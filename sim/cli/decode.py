@@ -5,8 +5,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from parser.findings.errors import ProgramError
-from parser.findings.messages import Message
+from parser.findings.errors import Message, ProgramError
 from sim.cli.dialect_options import RegisterSet, RegisterValue, with_dialect
 from sim.cli.scenario_options import describe
 from sim.cli.spoken import Spoken, spoken
@@ -16,7 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from controller.decode.blocks import Decoded
-    from parser.dialect.choices import ChosenDialect
+    from parser.dialect.reader import ChosenDialect
 
 
 @click.command(cls=Spoken)
@@ -46,7 +45,7 @@ def decode(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     from controller.decode.blocks import decoded
     from controller.decode.document import document_text
-    from parser.dialect.choices import Choices
+    from parser.dialect.reader import Choices
     from parser.program import read_program
     from sim.show.terminal.decode import print_decoded
     from sim.show.terminal.printer import say, write

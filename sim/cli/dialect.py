@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 import click
 
 from parser.findings.codes import CODES, Check, Severity
-from parser.findings.messages import Message
+from parser.findings.errors import Message
 from sim.cli.dialect_options import OwnOrNamed
 from sim.cli.spoken import SpokenGroup, spoken
 from sim.cli.spoken.completing import offer_files
 from sim.show.terminal.printer import say
 
 if TYPE_CHECKING:
-    from parser.dialect.choices import ChosenDialect
+    from parser.dialect.reader import ChosenDialect
     from parser.findings.findings import Finding
     from sim.check.file_check import Job
     from sim.check.result import CheckResult
@@ -72,7 +72,7 @@ class _Sample(NamedTuple):
         """Its places for people."""
         from parser.findings.catalogue import page, texts
         from parser.text.encoding import printable
-        from parser.text.excerpt import place
+        from parser.text.places import place
         from sim.show.texts import Words
 
         language = spoken()

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple, TypeVar
 
 import click
 
-from parser.findings.messages import Message
+from parser.findings.errors import Message
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 
@@ -100,7 +100,7 @@ def offsets_of(values: Iterable[Any]) -> Offsets:
 
 def register_set(text: str) -> RegisterSet:
     """The register that a text such as ``D0=0.1mm`` sets. SettingsError where it is none, or out of its bounds."""
-    from parser.dialect.choices import register_name
+    from parser.dialect.reader import register_name
     from parser.findings.errors import SettingsError
     from parser.units import mm
     from sim.base.units import parse_length

@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from parser.findings.errors import ProgramError
-from parser.findings.messages import Message
+from parser.findings.errors import Message, ProgramError
 from sim.cli.overrides import overridden, overrides_of
 from sim.cli.scenario_options import refused, scenario_options
 from sim.cli.spoken import Spoken, spoken, words

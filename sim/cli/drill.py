@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from parser.findings.errors import ProgramError, SettingsError
-from parser.findings.messages import Message
+from parser.findings.errors import Message, ProgramError, SettingsError
 from sim.cli.dialect_options import RegisterSet, RegisterValue, with_dialect
 from sim.cli.scenario_options import describe
 from sim.cli.spoken import Spoken, localised, words
@@ -16,7 +15,7 @@ from sim.cli.spoken.values import FilePath, WholeNumber
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from parser.dialect.choices import Choices, ChosenDialect
+    from parser.dialect.reader import Choices, ChosenDialect
     from parser.program import Program
     from sim.teach.drill.drills import Drill, DrillRequest, Level
 
@@ -47,7 +46,7 @@ def drill(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     drycut drill part.3b -o drills/
     drycut drill part.3b -o drills/ --set 17 --count 5 --level hard
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
-    from parser.dialect.choices import Choices
+    from parser.dialect.reader import Choices
     from sim.jobs.drills_into import PAGES, drills_into, names_of
     from sim.show.terminal.printer import say
     from sim.teach.drill.drills import DrillRequest

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import click
 
-from parser.findings.messages import Message, did_you_mean
+from parser.findings.errors import Message, did_you_mean
 from sim.cli.spoken import Spoken, words
 from sim.cli.spoken.completing import offer_examples
 from sim.cli.spoken.values import FilePath

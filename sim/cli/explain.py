@@ -8,7 +8,7 @@ import click
 
 from parser.findings.catalogue import Language
 from parser.findings.codes import CODES
-from parser.findings.messages import Message, did_you_mean
+from parser.findings.errors import Message, did_you_mean
 from sim.cli.spoken import Spoken, spoken
 from sim.cli.spoken.completing import offer_pages
 

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Final
 
-from parser.findings.messages import Message
+from parser.findings.errors import Message
 
 EXTRA_OF: Final[Mapping[str, str]] = {
     **dict.fromkeys(("PIL", "jinja2", "llvmlite", "markupsafe", "numba", "platformdirs"), "run"),

@@ -53,7 +53,7 @@ def open(  # noqa: A001 - named as the command
 
 def _programs(file: Path | None, *, from_icon: bool) -> "Programs":
     """What is to be open at the start. From an icon nobody reads a terminal: the page says what cannot be opened."""
-    from parser.files.reading import read_bytes
+    from parser.files import read_bytes
     from parser.findings.errors import FileUnreadableError
     from sim.serve.page.programs import Opened, Programs
 

@@ -15,7 +15,7 @@ from sim.setup.toml.reader import number
 from sim.show.terminal.printer import say
 
 if TYPE_CHECKING:
-    from parser.dialect.choices import ChosenDialect
+    from parser.dialect.reader import ChosenDialect
     from sim.cli.dialect_options import RegisterSet
     from sim.setup.machine.machine import TableEngine
     from sim.setup.part import DrawingTarget, Offset, SharpCorners
@@ -84,7 +84,7 @@ def read_with(
     scenario: "Scenario", dialect: "ChosenDialect | None", unit: str | None, registers: tuple["RegisterSet", ...]
 ) -> "Scenario":
     """The scenario with what the options say of its program in place of its own values; other registers stay."""
-    from parser.dialect.choices import merged
+    from parser.dialect.reader import merged
 
     return replace(
         scenario,

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
-from parser.findings.messages import Message
+from parser.findings.errors import Message
 from sim.cli.program_options import Options, making_of, options_of, program_options, refuse_own_files, writing_of
 from sim.cli.spoken import Spoken, spoken
 from sim.cli.spoken.values import FilePath

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeVar
 
 import click
 
-from parser.findings.messages import Message
+from parser.findings.errors import Message
 from sim.cli.dialect_options import WRITTEN_IN
 from sim.cli.lengths import Length, length_options, taken_lengths
 from sim.cli.spoken.completing import offer_machines

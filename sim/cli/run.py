@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
-from parser.findings.errors import ProgramError
-from parser.findings.messages import Message
+from parser.findings.errors import Message, ProgramError
 from sim.cli.overrides import Overrides, overridden, overrides_of
 from sim.cli.scenario_options import refused, scenario_options
 from sim.cli.spoken import Spoken, spoken, words

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 import click
 
-from parser.findings.messages import Message
+from parser.findings.errors import Message
 from sim.cli.spoken.values import WholeNumber
 
 if TYPE_CHECKING:

@@ -15,12 +15,11 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, Final, NamedTuple
 
-from parser.files.reading import read_bytes
+from parser.files import read_bytes
 from parser.findings.catalogue import Bilingual, Language
 from parser.findings.codes import Severity
-from parser.findings.errors import DrawingError, FileUnreadableError, SettingsError
+from parser.findings.errors import DrawingError, FileUnreadableError, SettingsError, in_both
 from parser.findings.findings import Count
-from parser.findings.messages import in_both
 from parser.text.encoding import printable
 from sim.base.files import staged
 from sim.base.workers.makers import Maker, made_by

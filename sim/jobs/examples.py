@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import Final
 
-from parser.files.reading import read_bytes
+from parser.files import read_bytes
 from sim.base.files import staged
 from sim.setup.scenario import Scenario, load_scenario
 

@@ -2,8 +2,18 @@
 
 from typing import Annotated, Final, Literal, TypedDict
 
-from parser.documents.fields import Code, Count, Judgement, Ordinal, SeverityName, Size, Text, one_of
-from parser.documents.schema import Document, Law
+from parser.documents import (
+    Code,
+    Count,
+    Document,
+    Judgement,
+    Law,
+    Ordinal,
+    SeverityName,
+    Size,
+    Text,
+    one_of,
+)
 
 CountsEntry = TypedDict(
     "CountsEntry",

@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from parser.files.reading import read_bytes
+from parser.files import read_bytes
 from parser.findings.errors import DrawingError
 from parser.program import Program, load_program
 from parser.text.encoding import printable

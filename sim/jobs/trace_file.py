@@ -13,8 +13,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from parser.findings.errors import FileUnreadableError
-from parser.findings.messages import system_message
+from parser.findings.errors import FileUnreadableError, system_message
 from parser.geometry.curves import Floats
 from sim.base.files import write_npz
 from sim.run.dryrun import DryRun

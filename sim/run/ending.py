@@ -8,7 +8,7 @@ import numpy as np
 from controller.motion.plan import Plan
 from controller.stepping.chunks import CHUNK_STEPS, chunk_of
 from controller.stepping.steps import Steps
-from parser.controller_words.step_words import Axis
+from parser.controller_words import Axis
 from parser.toolpath import Toolpath
 from parser.units import from_mm
 from sim.check.travel import ROUNDING_UM, beyond_um

@@ -11,8 +11,7 @@ from controller.offset.rows import OffsetPath, offset_toolpath
 from controller.offset.sections import Side, rounds_of
 from controller.offset.shifted import closed_contour
 from parser.findings.errors import ProgramError, SettingsError
-from parser.findings.facts import telling
-from parser.findings.findings import Finding, file_order
+from parser.findings.findings import Finding, file_order, telling
 from parser.program import Program
 from parser.shape.passes import find_passes
 from sim.check.compensation.words import WithoutValue, compensation_of, is_known

@@ -10,8 +10,7 @@ from controller.stepping.steps import Steps
 from controller.stepping.words import interpolate
 from parser.dialect.reader import in_codes
 from parser.findings.codes import Check, Severity
-from parser.findings.facts import NotSimulated, WithoutOffset
-from parser.findings.findings import Finding
+from parser.findings.findings import Finding, NotSimulated, WithoutOffset
 from parser.program import Program
 from sim.check.engine import Checked, run_checks
 from sim.check.pass_over_round import Offsetting

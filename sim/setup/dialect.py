@@ -4,8 +4,15 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from parser.dialect.choices import UNITS, ChosenDialect, OwnDialect, Registers, merged, register_name
-from parser.files.reading import read_text
+from parser.dialect.reader import (
+    UNITS,
+    ChosenDialect,
+    OwnDialect,
+    Registers,
+    merged,
+    register_name,
+)
+from parser.files import read_text
 from parser.findings.errors import SettingsError
 from parser.program import dialects, own_dialect
 from parser.text.places import KeyPlaces

@@ -8,8 +8,7 @@ from typing import Any, Literal, NamedTuple, get_args
 
 from controller.offset.sections import Side
 from parser.drawing.model import DEFAULT_GAP_UM
-from parser.findings.errors import SettingsError
-from parser.findings.messages import Message
+from parser.findings.errors import Message, SettingsError
 from parser.text.encoding import printable
 from sim.setup.toml.keys import Key, Section
 from sim.setup.toml.kinds import MM_AS_UM, MM_MIN_AS_UM_S, FileName, Number, OneOf, Text, Truth

@@ -4,8 +4,7 @@ from collections.abc import Mapping
 from itertools import pairwise
 from typing import Any
 
-from parser.findings.errors import SettingsError
-from parser.findings.messages import Message
+from parser.findings.errors import Message, SettingsError
 from parser.units import mm
 from sim.setup.making import (
     COMPENSATIONS,

@@ -6,8 +6,7 @@ from typing import Any, Literal, NamedTuple, get_args
 import numpy as np
 
 from parser.findings.catalogue import Bilingual
-from parser.findings.errors import SettingsError
-from parser.findings.messages import Message
+from parser.findings.errors import Message, SettingsError
 from parser.text.encoding import printable
 from parser.toolpath import Toolpath
 from sim.setup.toml.keys import Key, Section

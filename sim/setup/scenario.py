@@ -6,10 +6,14 @@ A folder holds ``scenario.toml`` and the program it names; a program alone is a 
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from parser.dialect.choices import Choices, ChosenDialect, Registers, merged
+from parser.dialect.reader import (
+    Choices,
+    ChosenDialect,
+    Registers,
+    merged,
+)
 from parser.findings.catalogue import Bilingual, Language
-from parser.findings.errors import FileUnreadableError, SettingsError
-from parser.findings.messages import system_message
+from parser.findings.errors import FileUnreadableError, SettingsError, system_message
 from parser.program import suffixes
 from parser.text.encoding import printable
 from parser.units import from_mm

@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from parser.controller_words.step_words import Axis
+from parser.controller_words import Axis
 from parser.units import mm
 from sim.run.ballbar.circle import Ballbar
 from sim.run.ballbar.figures import NAMES, Figures, Sense

@@ -3,8 +3,8 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from parser.controller_words.step_words import Axis
-from parser.dialect.at_block import at_block
+from parser.controller_words import Axis
+from parser.dialect.reader import at_block
 from parser.findings.findings import Fact, Finding, Value, file_order
 from parser.program import Program
 from parser.units import mm

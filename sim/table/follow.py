@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from controller.stepping.pulses import Pulses
-from parser.controller_words.step_words import Axis
+from parser.controller_words import Axis
 from parser.geometry.curves import Floats, Ints
 from parser.units import from_mm
 from sim.setup.machine.machine import TableEngine

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from parser.controller_words.step_words import Axis
+from parser.controller_words import Axis
 from parser.geometry.curves import Floats, Ints
 from parser.toolpath import Toolpath
 

@@ -19,7 +19,7 @@ from controller.motion.junctions import Path
 from controller.motion.planner import RowLimits, plan_rows
 from controller.stepping.chunks import chunk_of
 from controller.stepping.point_by_point import interpolate_words
-from parser.controller_words.step_words import StepWords
+from parser.controller_words import StepWords
 
 PERIOD_S = 200e-6
 BLOCK = (30, 40, 40, 1, 1, 0)

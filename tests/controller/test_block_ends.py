@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from controller.offset.block_ends import JointKind, aside_ends, joint_kinds
-from parser.controller_words.compensation import Compensation, CompensationRules
+from parser.controller_words import Compensation, CompensationRules
 from parser.program import parse_program
 from parser.toolpath import Toolpath
 

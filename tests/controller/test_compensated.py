@@ -23,7 +23,7 @@ from controller.offset.compensate import compensate
 from controller.offset.programmed import Compensated, compensated
 from controller.offset.rows import OffsetPath, RowOrigin
 from controller.offset.sections import OffsetSection, Side
-from parser.controller_words.compensation import CompensationRules
+from parser.controller_words import CompensationRules
 from parser.geometry.along import places_at
 from parser.geometry.curves import CurveKind, Curves
 from parser.toolpath import Toolpath

@@ -13,7 +13,7 @@ from paths import Pen
 from controller.offset.alarms import AlarmKind
 from controller.offset.programmed import Compensated, compensated
 from controller.offset.rows import RowOrigin
-from parser.controller_words.compensation import CompensationRules
+from parser.controller_words import CompensationRules
 
 LEFT, RIGHT = 1, -1
 ROUNDED_MM = 6e-5  # of figures with 4 decimals

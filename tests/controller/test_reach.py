@@ -19,9 +19,8 @@ from sound_shapes import SHAPES, Shape, begun_within, placed
 
 from controller.offset.reach import OffsetLoop, Reached, reach
 from controller.offset.sections import Side
-from parser.geometry.along import places_at
+from parser.geometry.along import directions, places_at
 from parser.geometry.curves import Curves, Floats, joined
-from parser.geometry.directions import directions
 from parser.geometry.distance import distance_to_curves
 
 EXACT_UM = 2e-5

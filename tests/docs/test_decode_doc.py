@@ -8,7 +8,7 @@ from places import ROOT
 from controller.decode.blocks import decoded
 from controller.decode.document import block_entry
 from controller.offset.block_ends import JointKind
-from parser.dialect.choices import Choices
+from parser.dialect.reader import Choices
 from parser.program import parse_program
 
 SECTION = re.split(r"^## ", (ROOT / "docs" / "iso.md").read_text(encoding="utf-8"), flags=re.MULTILINE)[8]

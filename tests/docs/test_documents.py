@@ -7,7 +7,7 @@ from places import ROOT
 from schema_pages import DOCUMENTS
 from script_types import pages
 
-from parser.documents.schema import Document, document_schema
+from parser.documents import Document, document_schema
 from sim.run.report.drawing_model import COMPARE
 from sim.run.report.model import REPORT
 

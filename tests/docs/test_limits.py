@@ -4,10 +4,9 @@ import re
 
 from places import ROOT
 
-from parser import units
+from parser import files, units
+from parser.drawing import plane
 from parser.drawing.dxf import blocks, document
-from parser.drawing.plane import flat, splined
-from parser.files import reading
 from parser.iso.path import flow
 from parser.threeb import reader
 from sim.base.workers import cluster
@@ -20,7 +19,7 @@ from sim.setup.toml import reader as toml
 
 PAGE = (ROOT / "docs" / "limits.md").read_text("utf-8")
 VALUES = {
-    "size of a file, or of the standard input": f"{reading.MOST_MB} MB",
+    "size of a file, or of the standard input": f"{files.MOST_MB} MB",
     "blocks of a program": reader.MOST_BLOCKS,
     "blocks that calls of subprograms run": flow.LONGEST,
     "a number of a block, µm": units.MAX_WORD_UM,
@@ -31,9 +30,9 @@ VALUES = {
     "entities in the file": document.MOST_ENTITIES,
     "entities once blocks are inserted": document.MOST_ENTITIES,
     "blocks within blocks": blocks.MOST_NESTED,
-    "lines and arcs, with those of ellipses and splines": flat.MOST_CURVES,
-    "places on one spline": splined.MOST_PLACES,
-    "coordinates, and how far an arc bulges, km": round(flat.FARTHEST_UM / 1e9),
+    "lines and arcs, with those of ellipses and splines": plane.MOST_CURVES,
+    "places on one spline": plane.MOST_PLACES,
+    "coordinates, and how far an arc bulges, km": round(plane.FARTHEST_UM / 1e9),
     "closed contours of a program held against a drawing by `drycut compare`": rings.MOST_CONTOURS,
     "passes over these contours": rings.MOST_PASSES,
     "pairs of places and curves looked at for one comparison": nearest.MOST_HELD,
@@ -50,7 +49,7 @@ def test_every_limit_of_the_page_is_that_of_the_code() -> None:
 
 
 def test_the_page_names_the_variable_that_sets_the_size() -> None:
-    assert f"`{reading.LIMIT_NAME}` in the environment" in PAGE
+    assert f"`{files.LIMIT_NAME}` in the environment" in PAGE
 
 
 def test_what_the_page_of_the_check_says_of_size_is_the_same() -> None:

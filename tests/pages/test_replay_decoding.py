@@ -8,7 +8,7 @@ from browser import OpenPage
 from replayed import recording_of
 from runs import plain_scenario
 
-from parser.dialect.choices import Choices
+from parser.dialect.reader import Choices
 from parser.program import parse_program
 from sim.base.progress import silent
 from sim.run.recording import recorded

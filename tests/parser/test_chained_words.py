@@ -8,8 +8,7 @@ from plain_ends import plain_ends, random_path
 
 from parser.geometry.curves import curves_between
 from parser.step_words.chained import arc_of, chained_words, line_of, told_arc_of
-from parser.step_words.moves import moves
-from parser.step_words.rules import words_of_arcs, words_of_lines, words_of_told_arcs
+from parser.step_words.words import moves, words_of_arcs, words_of_lines, words_of_told_arcs
 
 _MOST_UM = 2.3
 

@@ -20,7 +20,7 @@ from ezdxf.layouts import Modelspace
 from ezdxf.math import BSpline, ConstructionArc, Vec2, Vec3
 
 from parser.drawing.dxf import blocks
-from parser.drawing.loops.ends import Ends, joints
+from parser.drawing.loops.joints import Ends, joints
 from parser.drawing.model import Drawing, DrawnLoop, running
 from parser.drawing.read import read_drawing
 from parser.findings.catalogue import Language, remark_text

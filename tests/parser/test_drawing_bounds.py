@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from ezdxf.entities.insert import Insert
 
+from parser.drawing import plane
 from parser.drawing.dxf import document
 from parser.drawing.dxf.blocks import MOST_NESTED
-from parser.drawing.dxf.forms import Spline
-from parser.drawing.plane import flat
-from parser.drawing.plane.splined import places_at
+from parser.drawing.dxf.entities import Spline
+from parser.drawing.plane import places_at
 from parser.drawing.read import read_drawing
 from parser.findings.catalogue import remark_text
 from parser.findings.errors import DrawingError
@@ -98,7 +98,7 @@ def test_what_is_more_than_a_drawing_may_hold_is_one_line(
 ) -> None:
     for module in ("parser.drawing.dxf.document", "parser.drawing.dxf.blocks"):
         monkeypatch.setattr(f"{module}.MOST_ENTITIES", most)
-    monkeypatch.setattr(flat, "MOST_CURVES", 1000)
+    monkeypatch.setattr(plane, "MOST_CURVES", 1000)
     with pytest.raises(DrawingError) as caught:
         _read(tmp_path, text())
     assert f"part.dxf: {said}" in str(caught.value)

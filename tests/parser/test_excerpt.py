@@ -2,7 +2,7 @@
 
 import pytest
 
-from parser.text.excerpt import caret_lines, cells, place
+from parser.text.places import caret_lines, cells, place
 
 
 def test_place_names_what_is_known() -> None:

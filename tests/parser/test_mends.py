@@ -2,7 +2,7 @@
 
 import pytest
 
-from parser.controller_words.step_words import Axis
+from parser.controller_words import Axis
 from parser.dialect.mender import Mend
 from parser.program import parse_program
 from parser.text.source import Field

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from parser.geometry.broad_phase_pairs import NearPairs, near_pairs
 from parser.geometry.curves import Curves, Floats, curves_between
+from parser.geometry.near import NearPairs, near_pairs
 
 _ALL = 1 << 40
 

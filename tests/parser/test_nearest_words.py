@@ -5,14 +5,12 @@ import pytest
 from plain_ends import plain_ends, random_path
 
 from controller.stepping.point_by_point import interpolate_words
-from parser.controller_words.step_words import Axis
+from parser.controller_words import Axis
 from parser.geometry.curves import Curves, Floats, curves_between
 from parser.step_words.chained import Chained, chained_words
-from parser.step_words.moves import moves
-from parser.step_words.nearest.looked_at import radii_counted
-from parser.step_words.nearest.near_blocks import steps_off_um
-from parser.step_words.nearest.nearest import nearest_words
-from parser.step_words.rules import words_of_told_arcs
+from parser.step_words.near_blocks import radii_counted, steps_off_um
+from parser.step_words.nearest import nearest_words
+from parser.step_words.words import moves, words_of_told_arcs
 
 _ASIDE_UM, _AHEAD_UM, _LINE_UM, _CLOSED_UM = 1.0, 2.25, 1.1, 0.5
 _SHARES = np.linspace(0.0, 1.0, 33)

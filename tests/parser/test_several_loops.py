@@ -7,7 +7,7 @@ import pytest
 from paths import Pen
 
 from parser.shape.contours import contour_rows
-from parser.shape.several_loops import several_loops
+from parser.shape.loops import several_loops
 
 
 def loops_of(pen: Pen) -> list[tuple[int, int, bool]]:

@@ -9,12 +9,10 @@ from paths import Pen
 
 from parser.geometry.curves import Ints
 from parser.program import parse_program
-from parser.shape.closing import corners_at
-from parser.shape.contours import contour_rows, find_contours, runs
-from parser.shape.loops import find_loops
+from parser.shape.contours import contour_rows, corners_at, find_contours, runs
+from parser.shape.loops import find_loops, latest_return
 from parser.shape.open_edges import Section, find_turns, is_slot
 from parser.shape.parallel_runs import Stretches, run_beside
-from parser.shape.several_loops import latest_return
 from parser.text.source import Field, Source
 from parser.toolpath import Toolpath
 

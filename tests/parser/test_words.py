@@ -9,9 +9,8 @@ from drawings import Arc
 from plain import PlainBlock, motion_quadrant, plain_steps
 from sound_cam import arc_block, line_block
 
-from parser.controller_words.step_words import Axis, StepWords
-from parser.step_words.moves import arc_ends
-from parser.step_words.rules import words_of_arcs, words_of_lines
+from parser.controller_words import Axis, StepWords
+from parser.step_words.words import arc_ends, words_of_arcs, words_of_lines
 
 SENSE = {0: "L", 1: "NR", -1: "SR"}
 

@@ -19,8 +19,8 @@ from controller.offset.programmed import compensated
 from controller.offset.reach import reach
 from controller.offset.sections import OffsetSection, Side
 from parser.geometry.along import places_at
-from parser.geometry.broad_phase_places import nearest_um
 from parser.geometry.curves import Curves, Floats, curves_between
+from parser.geometry.near import nearest_um
 
 F_UM = 100.0
 BLOCK_UM = 100.0

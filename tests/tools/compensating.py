@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from paths import Pen
 
-from parser.controller_words.compensation import Compensation, CompensationRules
+from parser.controller_words import Compensation, CompensationRules
 from parser.geometry.curves import CurveKind, Curves
 from parser.toolpath import Toolpath
 

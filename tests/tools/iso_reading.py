@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 
-from parser.dialect.choices import Choices
+from parser.dialect.reader import Choices
 from parser.findings.findings import Finding
 from parser.program import Program, parse_program
 from parser.toolpath import Toolpath

@@ -4,8 +4,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.controller_words.step_words import Axis
-from parser.step_words.rules import words_of_lines
+from parser.controller_words import Axis
+from parser.step_words.words import words_of_lines
 
 
 class LineWords(NamedTuple):

@@ -17,7 +17,7 @@ from cam_programs import Sound, decoded_text, sound_program
 from mutants import Mutant, mutant
 
 from parser.geometry.curves import Floats
-from parser.shape.closing import CLOSED_WITHIN_UM
+from parser.shape.contours import CLOSED_WITHIN_UM
 from parser.toolpath import Toolpath
 from sim.check.file_check import Job, check_file
 from sim.check.result import CheckResult

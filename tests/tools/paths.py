@@ -6,9 +6,9 @@ from typing import Self
 
 import numpy as np
 
-from parser.controller_words.step_words import StepWords
+from parser.controller_words import StepWords
 from parser.geometry.curves import CurveKind, Curves
-from parser.step_words.moves import arc_ends
+from parser.step_words.words import arc_ends
 from parser.text.source import Source
 from parser.toolpath import Toolpath
 

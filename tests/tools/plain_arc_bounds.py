@@ -9,7 +9,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.drawing.dxf.forms import BEGIN, CENTER, MAJOR, MINOR, SWEEP, Spline
+from parser.drawing.dxf.entities import (
+    BEGIN,
+    CENTER,
+    MAJOR,
+    MINOR,
+    SWEEP,
+    Spline,
+)
 from parser.geometry.curves import Curves, Floats
 
 _STEPS = 96

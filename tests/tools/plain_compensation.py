@@ -5,7 +5,7 @@ import itertools
 import math
 from typing import NamedTuple
 
-from parser.controller_words.compensation import CompensationRules
+from parser.controller_words import CompensationRules
 
 
 class Leg(NamedTuple):

@@ -4,9 +4,9 @@ import numpy as np
 from plain import PlainBlock
 from sound_cam import plain_end
 
-from parser.controller_words.step_words import Axis, StepWords
+from parser.controller_words import Axis, StepWords
 from parser.geometry.curves import Curves, Floats, curves_between
-from parser.step_words.labels import label
+from parser.step_words.words import label
 
 
 def random_path(seed: int, n: int, reach_um: float) -> Curves:

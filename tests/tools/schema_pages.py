@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from controller.decode.model import DECODE
-from parser.documents.schema import schema_text
+from parser.documents import schema_text
 from sim.check.settings.schema import settings_schema
 from sim.jobs.index_model import INDEX
 from sim.make.cam.document_model import PROGRAM

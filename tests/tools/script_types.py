@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints, is_typeddict
 
-from parser.documents.fields import Limits, Point, SaidEntry
+from parser.documents import Limits, Point, SaidEntry
 from sim.show.replay.model import ReplayDocument
 
 ROOT = Path(__file__).parents[2]

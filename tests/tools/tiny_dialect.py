@@ -10,14 +10,13 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from parser.dialect.choices import Choices, Marks
-from parser.dialect.reader import BlockCounts, Damage, Reading, ReadText, Spelling
+from parser.dialect.reader import BlockCounts, Choices, Damage, Marks, Reading, ReadText, Spelling
 from parser.findings.codes import Check
 from parser.findings.errors import ProgramError
 from parser.findings.findings import file_order
 from parser.geometry.curves import Floats, curves_between
 from parser.text.encoding import no_program
-from parser.text.lines import LineIndex
+from parser.text.places import LineIndex
 from parser.text.source import Field, Source, Span
 from parser.toolpath import Stop, Toolpath
 from parser.units import from_mm

@@ -12,7 +12,7 @@ from typing import Any, Final, NamedTuple
 
 from controller.card.core.settings import CardSettings
 from controller.card.log.writer import settings_of
-from parser.files.reading import read_text
+from parser.files import read_text
 from parser.findings.errors import SettingsError
 
 CARD, CALL_S, CLOCK, LOG = "DRYCUT_CARD", "DRYCUT_CALL_S", "DRYCUT_CLOCK", "DRYCUT_CARD_LOG"

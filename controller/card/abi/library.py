@@ -15,8 +15,7 @@ from controller.card.abi.turns import Passed, Tasks, Turns
 from controller.card.core.settings import CardSettings
 from controller.card.ge import GECard
 from controller.card.log.writer import CardLog
-from parser.findings.errors import FileUnreadableError
-from parser.findings.messages import system_message
+from parser.findings.errors import FileUnreadableError, system_message
 from parser.text.encoding import printable
 
 _HOOK = ctypes.CFUNCTYPE(None, ctypes.c_char_p, ctypes.c_short)

@@ -9,7 +9,7 @@ from controller.card.core.codes import Code, Refused
 from controller.card.engine.entries import ORIGIN, Entry, PathEntry, Place, Segment, Stepped, Stepping, line
 from controller.stepping.point_by_point import interpolate_words
 from controller.stepping.steps import Steps
-from parser.controller_words.step_words import StepWords
+from parser.controller_words import StepWords
 
 _KEPT = 4096
 """Blocks are kept to count their steps at once; never more than these."""

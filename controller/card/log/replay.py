@@ -12,7 +12,7 @@ from controller.card.ge import GECard
 from controller.card.log.lines import CardLogError, Damaged, End, call_of, check_format, end_of, settings_of
 from controller.card.log.writer import call_text, end_text
 from controller.stepping.pulses import Pulses
-from parser.files.reading import read_text
+from parser.files import read_text
 
 OWN = ("set_input", "sleep", "step_block")
 """Calls in a log that are no functions of the library."""

@@ -10,7 +10,7 @@ from ezdxf.entities.insert import Insert
 from ezdxf.entities.layer import Layer
 
 from parser.drawing.dxf.document import MOST_ENTITIES
-from parser.drawing.dxf.forms import behind, of_insert
+from parser.drawing.dxf.entities import behind, of_insert
 from parser.findings.errors import DrawingError
 from parser.geometry.curves import Floats
 

@@ -5,25 +5,29 @@ Subclass marks for entities that are bare group codes, as ezdxf asks for them.
 Releases since R13 divide the group codes of an entity by marks, group code 100, such as ``AcDbSpline``. Small programs
 write the codes alone, often the ENTITIES section alone, and whoever reads by codes needs no marks. ezdxf needs them for
 some kinds of entities, and refuses the whole file where one of these has none.
+
+Linetypes that are broken: centre lines, hidden edges and the like, which are no contours.
 """
 
 import io
 import logging
 import re
+import tomllib
 from collections import Counter
 from collections.abc import Iterable, Iterator
+from functools import cache
 from itertools import islice
 from pathlib import Path
 from typing import NamedTuple
 
 from ezdxf import recover
 from ezdxf.document import Drawing as Document
+from ezdxf.entities.ltype import Linetype
 from ezdxf.filemanagement import dxf_stream_info
 from ezdxf.lldxf.encoding import decode_dxf_unicode
 from ezdxf.lldxf.tagger import binary_tags_loader
 
-from parser.files.kinds import kind_of
-from parser.files.reading import read_bytes
+from parser.files import kind_of, read_bytes
 from parser.findings.catalogue import LANGUAGES, Bilingual, Remark, term
 from parser.findings.errors import DrawingError
 from parser.text.encoding import printable
@@ -198,3 +202,33 @@ def _foreign(message: str) -> str:
     """A message of the library on one line, cut to a length that people read."""
     line = printable(" ".join(message.split())).rstrip(".")
     return line if len(line) <= _LONGEST else f"{line[: _LONGEST - 1]}…"
+
+
+_ELEMENT = 49  # group code of a dash, above 0, or a gap, below 0
+
+
+class Linetypes:
+    """Which of the linetypes of a document are broken, by their names in small letters."""
+
+    def __init__(self, document: Document) -> None:
+        self._broken = {entry.dxf.name.lower(): _has_gaps(entry) for entry in document.linetypes}
+
+    def is_broken(self, name: str) -> bool:
+        """Whether lines of this type have gaps; by the name alone where the document does not say what it is."""
+        if name not in self._broken:
+            self._broken[name] = _sounds_broken(name)
+        return self._broken[name]
+
+
+def _has_gaps(entry: Linetype) -> bool:
+    return any(code == _ELEMENT and value < 0.0 for code, value in entry.pattern_tags.tags)
+
+
+def _sounds_broken(name: str) -> bool:
+    names = _names()
+    return any(part in name for part in names["broken"]) and not any(part in name for part in names["whole"])
+
+
+@cache
+def _names() -> dict[str, list[str]]:
+    return tomllib.loads(Path(__file__).with_name("linetypes.toml").read_text(encoding="utf-8"))

@@ -12,13 +12,11 @@ from typing import Final, Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from parser.drawing.loops.ends import Ends, joints, near
-from parser.drawing.loops.once import merged, place_labels
-from parser.drawing.loops.overlaps import Strings, strings_of
+from parser.drawing.loops.joints import Ends, joints, near
+from parser.drawing.loops.once import Strings, merged, place_labels, strings_of
 from parser.drawing.model import BESIDE_UM, SAME_WITHIN_UM, DrawnLoop, running
-from parser.geometry.along import places
+from parser.geometry.along import directions, places
 from parser.geometry.curves import Bools, Curves, Floats, Ints, extents
-from parser.geometry.directions import directions
 
 
 class Run(NamedTuple):

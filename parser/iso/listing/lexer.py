@@ -13,11 +13,10 @@ import numpy as np
 from parser.findings.errors import ProgramError
 from parser.findings.findings import Edit, Finding, Value, file_order
 from parser.geometry.curves import Bools, Floats, Ints
+from parser.iso.listing.lines import OddLine, PlainWords, odd_line, plain_words
 from parser.iso.listing.listing import Blocks, ByLetter, Listing, Unread, Words
-from parser.iso.listing.odd_lines import OddLine, odd_line
-from parser.iso.listing.plain_words import PlainWords, plain_words
 from parser.text.encoding import narrow, no_program
-from parser.text.lines import Codes, LineIndex
+from parser.text.places import Codes, LineIndex
 
 _REMARK = re.compile(r"(?<![A-Za-z][A-Za-z])\((?:[^()\r\n]*\)|[^\r\n]*)|;[^\r\n]*")
 _TAPE_MARK = re.compile(r"%[^\r\n]*")

@@ -10,15 +10,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.controller_words.compensation import Compensation, CompensationRules
-from parser.dialect.choices import Choices
-from parser.dialect.reader import Assumption, Damage
+from parser.controller_words import Compensation, CompensationRules
+from parser.dialect.reader import Assumption, Choices, Damage
 from parser.findings.findings import Finding
-from parser.geometry.boxes import distinct
 from parser.geometry.curves import Bools, CurveKind, Curves, Floats, Ints
+from parser.geometry.near import distinct
 from parser.iso.listing.listing import Form, Listing
-from parser.iso.path.arc_checks import arc_findings
-from parser.iso.path.centers import Agreement, agreement
+from parser.iso.path.arcs import Agreement, agreement, arc_findings
 from parser.iso.path.flow import STOPS, GivenColumns
 from parser.iso.path.order_checks import order_findings
 from parser.iso.path.places import Modes, bare_place

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.dialect.choices import Choices
+from parser.dialect.reader import Choices
 from parser.geometry.curves import Bools, Floats, Ints
 from parser.iso.listing.listing import Assignment
 from parser.iso.path.flow import STOPS, Flow, GivenColumns, flow

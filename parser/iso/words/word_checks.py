@@ -9,8 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from parser.dialect.reader import PATH_IS_ALL, BesideThePath
-from parser.findings.facts import NotSimulated, TooLarge
-from parser.findings.findings import Finding
+from parser.findings.findings import Finding, NotSimulated, TooLarge
 from parser.geometry.curves import Bools, Floats, Ints
 from parser.iso.listing.listing import Form, Listing, Statement
 from parser.iso.profiles.profile import Profile

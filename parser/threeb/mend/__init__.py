@@ -3,7 +3,7 @@
 What looks for mends is imported when it is asked for: most programs need none, and start sooner without.
 """
 
-from parser.controller_words.step_words import Axis
+from parser.controller_words import Axis
 from parser.dialect.mender import Mend, Mender, Suspect
 from parser.findings.findings import Edit
 from parser.threeb import print_checks
@@ -20,7 +20,7 @@ class _Mender:
         return suspects(toolpath, first_row, past_row)
 
     def one_slips(self, toolpath: Toolpath, first_row: int, past_row: int, most: int) -> tuple[Suspect, ...]:
-        from parser.threeb.mend.one_slip import one_slips  # noqa: PLC0415
+        from parser.threeb.mend.suspects import one_slips  # noqa: PLC0415
 
         return one_slips(toolpath, first_row, past_row, most)
 

@@ -4,10 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from parser.controller_words.step_words import Axis, StepWords
+from parser.controller_words import Axis, StepWords
 from parser.dialect.mender import Mend
 from parser.findings.findings import Edit
-from parser.step_words.labels import label
+from parser.step_words.words import label
 from parser.text.encoding import narrow
 from parser.text.source import Field
 from parser.threeb.block_checks import ruled_label

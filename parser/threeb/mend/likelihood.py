@@ -8,9 +8,9 @@ points by what sound blocks do far more often than chance would have it. The poi
 import numpy as np
 from numpy.typing import NDArray
 
-from parser.controller_words.step_words import Axis, StepWords
+from parser.controller_words import Axis, StepWords
 from parser.geometry.curves import Floats, Ints
-from parser.step_words.moves import Moves
+from parser.step_words.words import Moves
 from parser.threeb.block_checks import ruled_label
 
 Flags = NDArray[np.bool_]

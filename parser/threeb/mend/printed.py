@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from parser.dialect.mender import Mend
 from parser.geometry.curves import Floats, Ints
-from parser.step_words.moves import Moves
+from parser.step_words.words import Moves
 from parser.threeb.block_checks import counts_fit
 from parser.threeb.mend.likelihood import familiar, joint, obedience, sizes
 from parser.threeb.mend.mends import FIELDS, SENSE, Mends, ease, field_text, mends, moves_of, word_table, words_of

@@ -21,8 +21,7 @@ from contextlib import contextmanager, suppress
 from functools import cache
 from pathlib import Path
 
-from parser.findings.errors import FileUnreadableError
-from parser.findings.messages import Message, system_message
+from parser.findings.errors import FileUnreadableError, Message, system_message
 from sim.base.files.swap import finish, swap
 
 MOST_WAIT_S = 30.0

@@ -13,8 +13,7 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from controller.stepping.pulses import Pulses
-from parser.findings.errors import FileUnreadableError
-from parser.findings.messages import system_message
+from parser.findings.errors import FileUnreadableError, system_message
 
 
 class StepFiles:

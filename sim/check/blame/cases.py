@@ -7,8 +7,7 @@ from itertools import islice
 from typing import NamedTuple
 
 from parser.dialect.mender import Mend, Mender
-from parser.findings.facts import PrintedElsewhere, WrongLabel, telling
-from parser.findings.findings import Finding
+from parser.findings.findings import Finding, PrintedElsewhere, WrongLabel, telling
 from parser.program import Program
 from parser.shape.contours import Contour
 from parser.text.source import Field

@@ -5,15 +5,23 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from controller.stepping.words import words_of
-from parser.dialect.at_block import at_block
 from parser.dialect.mender import Mend, Mender
-from parser.findings.facts import CountedElsewhere, OddOrder, OddShape, WrongBlock, WrongLabel
-from parser.findings.findings import Finding, Value, edited, file_order
+from parser.dialect.reader import at_block
+from parser.findings.findings import (
+    CountedElsewhere,
+    Finding,
+    OddOrder,
+    OddShape,
+    Value,
+    WrongBlock,
+    WrongLabel,
+    edited,
+    file_order,
+)
+from parser.geometry.along import directions
 from parser.geometry.curves import Curves
-from parser.geometry.directions import directions
 from parser.program import Program
-from parser.shape.closing import CLOSED_WITHIN_UM
-from parser.shape.contours import Contour
+from parser.shape.contours import CLOSED_WITHIN_UM, Contour
 from parser.text.source import Field
 from sim.check.blame.settle import Again, WrongWord
 from sim.check.closures import OpenContour, Suspected, suspect_finding

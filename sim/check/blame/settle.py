@@ -8,11 +8,18 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from parser.dialect.at_block import at_block
 from parser.dialect.mender import Mend, Mender
+from parser.dialect.reader import at_block
 from parser.findings.codes import Severity
-from parser.findings.facts import DoubtfulEnd, PrintedElsewhere, WrongLabel, telling
-from parser.findings.findings import Finding, edited, file_order
+from parser.findings.findings import (
+    DoubtfulEnd,
+    Finding,
+    PrintedElsewhere,
+    WrongLabel,
+    edited,
+    file_order,
+    telling,
+)
 from parser.program import Program
 from parser.shape.contours import Contour
 from parser.text.source import Field

@@ -13,7 +13,7 @@ from controller.offset.passes import PassedPath, PassedRound
 from controller.offset.programmed import compensated
 from controller.offset.rows import OffsetPath, offset_toolpath
 from controller.offset.sections import Side
-from parser.controller_words.compensation import Compensation
+from parser.controller_words import Compensation
 from parser.findings.findings import file_order
 from parser.geometry.curves import Bools, Floats, Ints
 from parser.program import Program

@@ -15,7 +15,7 @@ from controller.offset.rows import OffsetPath, RowOrigin
 from controller.offset.sections import OffsetSection, Side
 from controller.offset.shifted import NOTHING_UM
 from controller.offset.uncut import uncut_um
-from parser.dialect.at_block import at_block
+from parser.dialect.reader import at_block
 from parser.findings.findings import Finding
 from parser.geometry.along import along_um
 from parser.geometry.curves import Bools, Curves, Ints, joined

@@ -16,12 +16,12 @@ import numpy as np
 from controller.offset.sections import OffsetSection, Round, Side
 from controller.offset.shifted import closed_contour
 from controller.offset.stretches import known_sides
-from parser.controller_words.compensation import Compensation
+from parser.controller_words import Compensation
 from parser.geometry.along import along_um, headings_along, places, places_at
-from parser.geometry.broad_phase_places import nearest_um
 from parser.geometry.curves import Bools, Curves, Floats, Ints, extents, joined
 from parser.geometry.distance import distance_to_curves
-from parser.shape.closing import CLOSED_WITHIN_UM
+from parser.geometry.near import nearest_um
+from parser.shape.contours import CLOSED_WITHIN_UM
 from parser.shape.loops import find_loops
 from parser.toolpath import Toolpath
 from sim.check.pass_over_round import Distances

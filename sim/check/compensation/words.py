@@ -11,8 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from controller.offset.alarms import Alarm, AlarmKind
-from parser.controller_words.compensation import Compensation
-from parser.dialect.at_block import at_block
+from parser.controller_words import Compensation
+from parser.dialect.reader import at_block
 from parser.findings.codes import Severity
 from parser.findings.findings import Fact, Finding, Value
 from parser.program import Program

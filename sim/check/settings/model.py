@@ -4,7 +4,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Final, Literal, Self
 
-from parser.dialect.choices import Choices, ChosenDialect, Marks, Registers, merged
+from parser.dialect.reader import (
+    Choices,
+    ChosenDialect,
+    Marks,
+    Registers,
+    merged,
+)
 from parser.units import from_mm
 from sim.check.path_checks import Demands
 from sim.check.result import FailOn

@@ -13,7 +13,7 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, get_args
 
-from parser.dialect.choices import ChosenDialect, Marks, OwnDialect
+from parser.dialect.reader import ChosenDialect, Marks, OwnDialect
 from parser.findings.codes import CODES
 from parser.findings.errors import SettingsError
 from parser.program import block_words, own_marks

@@ -11,8 +11,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from parser.findings.errors import DrycutError, FileUnreadableError, SettingsError
-from parser.findings.messages import system_message
+from parser.findings.errors import DrycutError, FileUnreadableError, SettingsError, system_message
 from sim.check.settings.read import NAMES, NO_SETTINGS, SettingsFile, content_of, read_settings
 
 

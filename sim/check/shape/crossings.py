@@ -10,11 +10,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.geometry.boxes import turn_rad
-from parser.geometry.broad_phase_pairs import near_pairs
+from parser.geometry.along import headings_at
 from parser.geometry.curves import Bools, Floats, Ints
-from parser.geometry.directions import headings_at
-from parser.geometry.meets import Meets, by_xy, curves_meet
+from parser.geometry.distance import Meets, by_xy, curves_meet
+from parser.geometry.near import near_pairs, turn_rad
 from parser.shape.parallel_runs import BESIDE_UM
 from parser.shape.passes import Passes
 from parser.toolpath import Point, Toolpath

@@ -9,9 +9,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from parser.geometry.along import Directions, directions
 from parser.geometry.curves import Bools, Floats, Ints
-from parser.geometry.directions import Directions, directions
-from parser.shape.closing import CLOSED_WITHIN_UM
+from parser.shape.contours import CLOSED_WITHIN_UM
 from parser.shape.loops import find_loops, is_circle
 from parser.toolpath import Toolpath
 

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from parser.files.reading import read_text
+from parser.files import read_text
 from parser.findings.codes import CODES
 from parser.findings.errors import SettingsError
 from sim.check.own_checks import load_own_checks

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
-from parser.findings.messages import Message
+from parser.findings.errors import Message
 from sim.cli.check.options import check_options
 from sim.cli.spoken import Spoken, spoken
 from sim.cli.spoken.completing import offer_files

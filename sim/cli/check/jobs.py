@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 import click
 
-from parser.dialect.choices import ChosenDialect, merged
-from parser.files.reading import read_stdin
+from parser.dialect.reader import ChosenDialect, merged
+from parser.files import read_stdin
 from parser.findings.codes import CODES
-from parser.findings.messages import Message
+from parser.findings.errors import Message
 from sim.check.file_check import Job
 from sim.check.files import FileFilter, find_files
 from sim.check.settings.model import WIRE_LENGTHS

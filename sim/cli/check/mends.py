@@ -13,14 +13,13 @@ from itertools import groupby, takewhile
 from pathlib import Path, PurePath
 from typing import AnyStr, Generic, NamedTuple
 
-from parser.files.reading import read_bytes
+from parser.files import read_bytes
 from parser.findings.catalogue import Language
 from parser.findings.errors import FileUnreadableError, ProgramError
 from parser.findings.findings import Finding
 from parser.program import Program, load_program
 from parser.text.encoding import printable
-from parser.text.excerpt import place
-from parser.text.lines import LINE_END
+from parser.text.places import LINE_END, place
 from sim.base.files import replace_file, staged
 from sim.check.file_check import Job
 from sim.check.fixes import Choice, choices

@@ -6,7 +6,7 @@ from typing import Any, TypeVar
 
 import click
 
-from parser.findings.messages import Message
+from parser.findings.errors import Message
 from sim.check.settings.read import FAIL_ON
 from sim.cli.check.outputs import Output
 from sim.cli.dialect_options import UNIT, OwnOrNamed, RegisterValue

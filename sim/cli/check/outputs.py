@@ -13,7 +13,7 @@ from typing import IO, TYPE_CHECKING, NamedTuple
 
 import click
 
-from parser.findings.messages import Message
+from parser.findings.errors import Message
 from sim.show.findings import FORMATS, render
 from sim.show.terminal import printer
 from sim.show.terminal.printer import coloured, printed_text

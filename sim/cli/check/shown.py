@@ -10,7 +10,7 @@ from typing import Final
 
 from parser.findings.catalogue import Language
 from parser.text.encoding import printable
-from parser.text.excerpt import cells
+from parser.text.places import cells
 from parser.units import mm
 from sim.check.settings import CheckSettings
 from sim.cli.check.jobs import Jobs

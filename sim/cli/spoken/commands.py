@@ -19,8 +19,8 @@ from typing import Final
 
 import click
 
-from parser.findings.messages import Message, did_you_mean
-from parser.text.excerpt import cells
+from parser.findings.errors import Message, did_you_mean
+from parser.text.places import cells
 from sim.cli.spoken.tongue import OPTION, speak_as_asked, words
 from sim.show.terminal.wrap import wrapped
 from sim.show.texts.texts import texts

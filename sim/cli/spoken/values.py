@@ -4,7 +4,7 @@ from typing import Any
 
 import click
 
-from parser.findings.messages import Message
+from parser.findings.errors import Message
 
 
 class WholeNumber(click.IntRange):

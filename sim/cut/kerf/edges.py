@@ -11,10 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from controller.compiled.loops import compiled
-from parser.geometry.along import headings_along, places_at
-from parser.geometry.boxes import reach_um
+from parser.geometry.along import directions, headings, headings_along, places_at, to_left
 from parser.geometry.curves import Curves, Floats, Ints
-from parser.geometry.directions import directions, headings, to_left
+from parser.geometry.near import reach_um
 from sim.cut.kerf.ways import WireWay
 
 _SPACING_UM = 20.0  # a fifth of the usual offset: discs smooth the edge over more than that

@@ -6,8 +6,8 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from parser.geometry.along import directions, to_left
 from parser.geometry.curves import Curves, Floats, Ints, curves_between, joined
-from parser.geometry.directions import directions, to_left
 from sim.cut.regions import Region, Regions, union_all
 
 _CHORD_UM = 0.01

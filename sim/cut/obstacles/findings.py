@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from parser.dialect.at_block import at_block
+from parser.dialect.reader import at_block
 from parser.findings.findings import Finding, Value
 from parser.geometry.curves import Floats
 from parser.program import Program

@@ -1,6 +1,6 @@
 """Findings on what a cut leaves: pieces that come free before their cut is done, and a kerf that stays unknown."""
 
-from parser.dialect.at_block import at_block
+from parser.dialect.reader import at_block
 from parser.findings.findings import Finding
 from parser.program import Program
 from parser.units import mm

@@ -9,8 +9,8 @@ from typing import Literal, NamedTuple
 import numpy as np
 import shapely
 
+from parser.geometry.along import to_left
 from parser.geometry.curves import Bools, Curves, Floats, Ints
-from parser.geometry.directions import to_left
 from parser.toolpath import Point, Toolpath
 from sim.cut.kerf.edges import Edges
 from sim.cut.kerf.swept import Kerf

@@ -2,11 +2,13 @@
 
 from typing import Annotated, Final, Literal, TypedDict
 
-from parser.documents.fields import (
+from parser.documents import (
     BlockRange,
     CheckVerdict,
     Code,
     Count,
+    Document,
+    Law,
     Ordinal,
     Point,
     Positive,
@@ -19,7 +21,6 @@ from parser.documents.fields import (
     of_length,
     one_of,
 )
-from parser.documents.schema import Document, Law
 
 _NOTHING: Final = {"maxItems": 0}
 

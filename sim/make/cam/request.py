@@ -3,9 +3,9 @@
 The program that a scenario asks for, made of its drawing.
 """
 
-from parser.dialect.choices import OwnDialect
+from parser.dialect.reader import OwnDialect
 from parser.findings.errors import SettingsError
-from parser.write.iso_choices import IsoChoices, iso_choices
+from parser.write.iso import IsoChoices, iso_choices
 from sim.base.progress import Progress, silent
 from sim.make.cam.maker import MadeProgram, NotMade, unproved
 from sim.make.convert.wanted import Wanted

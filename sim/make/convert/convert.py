@@ -10,13 +10,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.controller_words.compensation import Compensation
-from parser.controller_words.step_words import StepWords
-from parser.dialect.choices import Choices, Registers
+from parser.controller_words import Compensation, StepWords
+from parser.dialect.reader import Choices, Registers
 from parser.findings.codes import Severity
 from parser.findings.errors import ProgramError
-from parser.findings.facts import NotSimulated, telling
-from parser.findings.findings import Finding
+from parser.findings.findings import Finding, NotSimulated, telling
 from parser.geometry.curves import CurveKind
 from parser.geometry.distance import distance_to_curves
 from parser.program import Program, load_program

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.controller_words.compensation import Compensation
+from parser.controller_words import Compensation
 from parser.geometry.curves import CurveKind, Curves, Floats, Ints
 from parser.toolpath import Toolpath
 from parser.write.draft import Draft, Event, Written, events_of

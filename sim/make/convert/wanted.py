@@ -6,13 +6,20 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from parser.dialect.choices import STANDARD_CHOICES, Choices
+from parser.dialect.reader import STANDARD_CHOICES, Choices
 from parser.program import Program
 from parser.toolpath import Toolpath
-from parser.write.curve_marks import curve_marks
-from parser.write.draft import Draft, Event, Written, draft_of, events_of, with_rapid_to_start, without_rapids
-from parser.write.iso import registers_of, written_iso
-from parser.write.iso_choices import IsoChoices, iso_choices
+from parser.write.draft import (
+    Draft,
+    Event,
+    Written,
+    curve_marks,
+    draft_of,
+    events_of,
+    with_rapid_to_start,
+    without_rapids,
+)
+from parser.write.iso import IsoChoices, iso_choices, registers_of, written_iso
 from parser.write.pmac import PmacChoices, blocks_of_text, ramp_of, written_pmac
 from parser.write.threeb import Form, ThreeBChoices, with_codes, written_3b
 

@@ -13,8 +13,8 @@ import numpy as np
 from parser.drawing.model import Drawing, running
 from parser.findings.catalogue import Remark
 from parser.findings.errors import DrawingError
+from parser.geometry.along import headings, headings_at
 from parser.geometry.curves import Curves, Floats, Ints
-from parser.geometry.directions import headings, headings_at
 from parser.geometry.distance import feet
 from parser.text.encoding import printable
 from parser.toolpath import Point

@@ -13,8 +13,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from parser.geometry.along import headings_at, to_left
 from parser.geometry.curves import Curves, Floats, Ints
-from parser.geometry.directions import headings_at, to_left
 from parser.geometry.distance import feet
 from sim.measure.compare.nearest import Index, Nearest, nearest
 from sim.measure.compare.starts import CurveGroup, Placement, RigidMotion, Spread, groups, spread, starts

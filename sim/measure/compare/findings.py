@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.dialect.at_block import at_block
+from parser.dialect.reader import at_block
 from parser.drawing.model import Drawing
 from parser.findings.catalogue import Remark
 from parser.findings.errors import SettingsError

@@ -16,9 +16,8 @@ from shapely.geometry.polygon import orient
 from controller.offset.reach import reach
 from controller.offset.sections import Side
 from parser.findings.catalogue import Remark
-from parser.geometry.along import deepest, places
+from parser.geometry.along import deepest, headings_at, places
 from parser.geometry.curves import Bools, Curves, Floats, Ints, curves_between, joined
-from parser.geometry.directions import headings_at
 from parser.geometry.distance import feet
 from parser.toolpath import Point, Toolpath
 from sim.cut.kerf.nominal import nominal_region

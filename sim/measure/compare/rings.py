@@ -11,8 +11,7 @@ from parser.findings.errors import SettingsError
 from parser.geometry.along import outline
 from parser.geometry.curves import Curves, Floats, Ints, curves_between, joined
 from parser.geometry.distance import feet
-from parser.shape.closing import CLOSED_WITHIN_UM
-from parser.shape.contours import contour_rows
+from parser.shape.contours import CLOSED_WITHIN_UM, contour_rows
 from parser.shape.passes import Pass, Passes, find_passes
 from parser.toolpath import Toolpath
 

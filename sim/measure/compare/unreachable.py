@@ -14,9 +14,8 @@ import numpy as np
 from controller.offset.reach import OffsetLoop, reach
 from controller.offset.sections import Side
 from parser.drawing.model import SAME_WITHIN_UM, Drawing, running
-from parser.geometry.along import along_um, headings_along, places, places_at
+from parser.geometry.along import along_um, directions, headings_along, places, places_at
 from parser.geometry.curves import Curves, Floats, Ints, curves_between, joined
-from parser.geometry.directions import directions
 from parser.toolpath import Point
 
 _LEAST_UM = 0.1  # as exact as a drawing's ellipses and splines are; shallower corners stay as they are drawn

@@ -19,11 +19,10 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from parser.geometry.along import along_um
-from parser.geometry.broad_phase_places import near_places
+from parser.geometry.along import along_um, headings_at, to_left
 from parser.geometry.curves import Curves, Floats, Ints
-from parser.geometry.directions import headings_at, to_left
 from parser.geometry.distance import distance_to_curves, feet
+from parser.geometry.near import near_places
 from parser.shape.passes import Pass
 from parser.toolpath import Toolpath
 

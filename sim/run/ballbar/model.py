@@ -2,9 +2,11 @@
 
 from typing import Annotated, Final, Literal, TypedDict
 
-from parser.documents.fields import (
+from parser.documents import (
     AxisName,
+    Document,
     Judgement,
+    Law,
     Point,
     Positive,
     Sense,
@@ -15,7 +17,6 @@ from parser.documents.fields import (
     of_length,
     one_of,
 )
-from parser.documents.schema import Document, Law
 
 
 class SenseEntry(TypedDict):

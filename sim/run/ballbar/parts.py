@@ -24,7 +24,7 @@ from typing import Final, Literal, NamedTuple
 
 import numpy as np
 
-from parser.controller_words.step_words import Axis
+from parser.controller_words import Axis
 from parser.geometry.curves import Bools, Floats
 from sim.run.ballbar.figures import GRID_RAD, SENSES, MeasuredTurn, Sense
 

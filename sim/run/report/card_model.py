@@ -2,7 +2,15 @@
 
 from typing import Annotated, TypedDict
 
-from parser.documents.fields import Count, Ordinal, Size, between, matching, of_length, one_of
+from parser.documents import (
+    Count,
+    Ordinal,
+    Size,
+    between,
+    matching,
+    of_length,
+    one_of,
+)
 
 
 class ProgramEndEntry(TypedDict):

@@ -2,7 +2,16 @@
 
 from typing import Annotated, TypedDict
 
-from parser.documents.fields import BlockRange, Count, Ordinal, Point, Ring, Size, of_length, one_of
+from parser.documents import (
+    BlockRange,
+    Count,
+    Ordinal,
+    Point,
+    Ring,
+    Size,
+    of_length,
+    one_of,
+)
 
 
 class RangeEntry(TypedDict):

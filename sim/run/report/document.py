@@ -14,7 +14,7 @@ from typing import Any, cast
 import numpy as np
 
 from parser import __version__
-from parser.controller_words.step_words import Axis
+from parser.controller_words import Axis
 from parser.dialect.reader import HeaderValue
 from parser.findings.catalogue import texts
 from parser.findings.findings import Finding

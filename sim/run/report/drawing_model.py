@@ -2,9 +2,10 @@
 
 from typing import Annotated, Final, Literal, TypedDict
 
-from parser.documents.fields import (
+from parser.documents import (
     BlockRange,
     Count,
+    Document,
     Judgement,
     Ordinal,
     Point,
@@ -16,7 +17,6 @@ from parser.documents.fields import (
     of_length,
     one_of,
 )
-from parser.documents.schema import Document
 
 
 class DirectionEntry(TypedDict):

@@ -2,7 +2,7 @@
 
 from typing import Annotated, Final, Literal, TypedDict
 
-from parser.documents.fields import (
+from parser.documents import (
     DIALECT,
     AssumptionEntry,
     AxisName,
@@ -11,8 +11,10 @@ from parser.documents.fields import (
     Code,
     Count,
     CurveName,
+    Document,
     Encoding,
     Judgement,
+    Law,
     Ordinal,
     Point,
     Positive,
@@ -26,7 +28,6 @@ from parser.documents.fields import (
     of_length,
     one_of,
 )
-from parser.documents.schema import Document, Law
 from sim.run.report.card_model import CardEntry
 from sim.run.report.cut_model import RemainsEntry
 from sim.run.report.drawing_model import ComparisonEntry

@@ -2,7 +2,7 @@
 
 from typing import Annotated, TypedDict
 
-from parser.documents.fields import (
+from parser.documents import (
     AxisName,
     BlockRange,
     Count,

@@ -12,8 +12,7 @@ from typing import Any, Final
 from parser.drawing.model import Drawing
 from parser.drawing.read import read_drawing
 from parser.findings.catalogue import LANGUAGES, Bilingual, Language, remark_text
-from parser.findings.errors import DrycutError, SettingsError
-from parser.findings.messages import Message
+from parser.findings.errors import DrycutError, Message, SettingsError
 from parser.program import load_program, moving
 from parser.text.encoding import printable
 from parser.toolpath import Toolpath

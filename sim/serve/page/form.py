@@ -7,8 +7,7 @@ from typing import Final, NamedTuple
 
 from controller.motion.limits import Feeds
 from parser.findings.catalogue import Bilingual
-from parser.findings.errors import SettingsError
-from parser.findings.messages import Message
+from parser.findings.errors import Message, SettingsError
 from parser.text.encoding import narrow
 from parser.units import from_mm
 from sim.serve.page.child import PageRequest

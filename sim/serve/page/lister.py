@@ -7,9 +7,8 @@ import json
 from pathlib import Path
 from typing import Any, Final
 
-from parser.files.reading import read_bytes
-from parser.findings.errors import FileUnreadableError
-from parser.findings.messages import in_both
+from parser.files import read_bytes
+from parser.findings.errors import FileUnreadableError, in_both
 from sim.base.workers.processes import Processes
 from sim.base.workers.rounds import DIED, Lost, in_order, results
 from sim.serve.page.child import read_request

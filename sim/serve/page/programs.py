@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, Final, NamedTuple
 
-from parser.files.reading import read_bytes
+from parser.files import read_bytes
 from parser.findings.catalogue import Bilingual
 from parser.findings.errors import FileUnreadableError
 from parser.text.encoding import printable

@@ -10,10 +10,9 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, Final
 
-from parser.files.reading import read_bytes
+from parser.files import read_bytes
 from parser.findings.catalogue import Language
-from parser.findings.errors import SettingsError
-from parser.findings.messages import Message
+from parser.findings.errors import Message, SettingsError
 from parser.program import Program, load_program, moving
 from sim.base.progress import Progress, silent
 from sim.check.file_check import settings_near

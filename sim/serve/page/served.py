@@ -22,8 +22,7 @@ from typing import Final, NamedTuple
 import uvicorn
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from parser.findings.errors import DrycutError
-from parser.findings.messages import system_message
+from parser.findings.errors import DrycutError, system_message
 from sim.base.files import scratch
 from sim.serve.page.app import app_of
 from sim.serve.page.drawings import Drawings

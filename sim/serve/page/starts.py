@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import Final, NamedTuple
 
-from parser.files.reading import read_bytes
+from parser.files import read_bytes
 from sim.jobs.examples import example
 
 _SOUND: Final = "keyhole"

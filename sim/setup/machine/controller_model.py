@@ -9,9 +9,8 @@ from controller.card.core.units import UM_S3_PER_PULSE_MS3
 from controller.host.entries import Interpolation
 from controller.motion.junctions import Junction, JunctionDeviation, SlowAt, StopEach, Through
 from controller.motion.limits import MotionLimits
-from parser.dialect.choices import Registers
-from parser.findings.errors import SettingsError
-from parser.findings.messages import Message
+from parser.dialect.reader import Registers
+from parser.findings.errors import Message, SettingsError
 from sim.setup.dialect import REGISTERS
 from sim.setup.toml.keys import Key, Section
 from sim.setup.toml.kinds import DEGREES_AS_RAD, MM_AS_UM, MS_AS_S, US_AS_S, Number, OneOf

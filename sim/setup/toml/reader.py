@@ -6,9 +6,8 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from parser.files.reading import read_text
-from parser.findings.errors import SettingsError
-from parser.findings.messages import Message, did_you_mean
+from parser.files import read_text
+from parser.findings.errors import Message, SettingsError, did_you_mean
 from sim.base.units import in_digits
 
 

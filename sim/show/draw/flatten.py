@@ -5,9 +5,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from parser.geometry.along import places
+from parser.geometry.along import headings, places
 from parser.geometry.curves import Bools, Curves, Floats, Ints
-from parser.geometry.directions import headings
 
 
 def bounds_um(toolpath: Curves) -> Floats:

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator
 from parser.findings.catalogue import Language, texts
 from parser.findings.findings import Finding
 from parser.text.encoding import printable
-from parser.text.excerpt import place
+from parser.text.places import place
 from sim.check.result import CheckResult
 from sim.show.findings.options import Options
 from sim.show.findings.totals import Totals

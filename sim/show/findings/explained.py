@@ -5,8 +5,15 @@ from collections.abc import Sequence
 from typing import Annotated, Final, Literal, NamedTuple, TypedDict
 
 from parser import __version__
-from parser.documents.fields import Code, SeverityName, Text, Version, matching, one_of
-from parser.documents.schema import Document
+from parser.documents import (
+    Code,
+    Document,
+    SeverityName,
+    Text,
+    Version,
+    matching,
+    one_of,
+)
 from parser.findings.catalogue import LANGUAGES, Language, example, page
 from parser.findings.codes import CODES
 from sim.show.findings.pages import severity_word

@@ -4,7 +4,7 @@ import json
 from collections.abc import Iterable, Iterator
 
 from parser import __version__
-from parser.documents.fields import BlockCountsEntry
+from parser.documents import BlockCountsEntry
 from parser.findings.catalogue import Language, term, texts
 from parser.findings.codes import Severity
 from parser.findings.findings import Edit, Finding

@@ -14,7 +14,7 @@ from parser import __version__
 from parser.findings.catalogue import Language, term
 from parser.findings.codes import CODES
 from parser.findings.findings import Finding
-from parser.text.excerpt import place
+from parser.text.places import place
 from sim.check.result import CheckResult, CheckState
 from sim.show.findings.options import Options
 from sim.show.findings.totals import BLOCKS

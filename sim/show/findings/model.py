@@ -2,13 +2,14 @@
 
 from typing import Annotated, Final, Literal, TypedDict
 
-from parser.documents.fields import (
+from parser.documents import (
     AssumptionEntry,
     BlockCountsEntry,
     CheckVerdict,
     Code,
     Count,
     DialectName,
+    Document,
     Encoding,
     Ordinal,
     Point,
@@ -20,7 +21,6 @@ from parser.documents.fields import (
     of_length,
     one_of,
 )
-from parser.documents.schema import Document
 
 
 class SilencedEntry(TypedDict):

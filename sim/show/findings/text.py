@@ -9,9 +9,9 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 
 from parser.findings.catalogue import Language, length, page, term
-from parser.findings.facts import ReadAs
+from parser.findings.findings import ReadAs
 from parser.text.encoding import printable
-from parser.text.excerpt import cells
+from parser.text.places import cells
 from sim.check.result import CheckResult
 from sim.show.findings.options import Options
 from sim.show.findings.totals import BLOCKS, Totals

@@ -4,8 +4,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from parser.findings.catalogue import Language, term
 from parser.findings.codes import Severity
-from parser.findings.facts import ReadAs, telling
-from parser.findings.findings import Finding
+from parser.findings.findings import Finding, ReadAs, telling
 from sim.check.result import CheckResult, CheckState, Coverage, Silenced, State
 from sim.show.findings.totals import Totals
 from sim.show.terminal.finding import hint, message

@@ -7,7 +7,7 @@ import numpy as np
 
 from parser.findings.catalogue import Bilingual
 from parser.geometry.curves import Floats
-from parser.step_words.labels import label
+from parser.step_words.words import label
 from sim.setup.quiz import About, WrittenQuestion
 from sim.show.replay.asked_block import AskedBlock, in_mm, plain, signed, way
 from sim.show.texts import bilingual

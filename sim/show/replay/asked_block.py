@@ -5,9 +5,9 @@ from typing import NamedTuple
 import numpy as np
 
 from controller.stepping.strokes import walk_arcs
-from parser.controller_words.step_words import Axis, StepWords
+from parser.controller_words import Axis, StepWords
 from parser.geometry.curves import Floats
-from parser.step_words.labels import label
+from parser.step_words.words import label
 from parser.units import mm
 from sim.run.dryrun import DryRun
 

@@ -21,7 +21,7 @@ from controller.decode.blocks import Decoded, decoded
 from controller.motion.plan import Plan
 from controller.stepping.words import words_of
 from parser import __version__
-from parser.controller_words.step_words import Axis, StepWords
+from parser.controller_words import Axis, StepWords
 from parser.findings.catalogue import Language, texts
 from parser.findings.findings import Finding
 from parser.program import Program

@@ -2,7 +2,7 @@
 
 from typing import Annotated, Literal, TypedDict
 
-from parser.documents.fields import (
+from parser.documents import (
     AxisName,
     CurveName,
     Point,

@@ -11,7 +11,7 @@ import numpy as np
 
 from controller.stepping.pulses import Pulses
 from controller.stepping.words import words_of
-from parser.controller_words.step_words import StepWords
+from parser.controller_words import StepWords
 from parser.text.source import Field
 from sim.run.dryrun import DryRun
 from sim.setup.quiz import About, Question, WrittenQuestion

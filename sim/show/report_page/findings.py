@@ -13,7 +13,7 @@ from parser.findings.catalogue import LANGUAGES, Bilingual, page, texts
 from parser.findings.codes import Severity
 from parser.findings.findings import Finding
 from parser.program import Program
-from parser.text.excerpt import caret_lines
+from parser.text.places import caret_lines
 from sim.run.dryrun import DryRun
 from sim.show.texts import bilingual
 

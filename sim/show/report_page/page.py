@@ -12,7 +12,7 @@ from typing import Any, Final, NamedTuple
 
 from markupsafe import Markup
 
-from parser.dialect.choices import OwnDialect
+from parser.dialect.reader import OwnDialect
 from parser.findings.catalogue import Bilingual
 from parser.program import Program, own_dialect_text
 from parser.text.encoding import encode_text

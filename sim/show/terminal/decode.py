@@ -7,7 +7,7 @@ from parser.dialect.decoding import DecodeStep
 from parser.findings.catalogue import Language
 from parser.program import Program
 from parser.text.encoding import printable
-from parser.text.excerpt import cells
+from parser.text.places import cells
 from sim.show.decoded import buffer_text, order_text, value_text, way_texts, word_text
 from sim.show.terminal.colours import styled
 from sim.show.terminal.layout import paragraph

@@ -11,7 +11,7 @@ from typing import Final, Literal, NamedTuple
 from parser.findings.catalogue import Language, texts
 from parser.findings.findings import Finding
 from parser.text.encoding import printable
-from parser.text.excerpt import caret_lines, cells, place
+from parser.text.places import caret_lines, cells, place
 from sim.show.terminal.wrap import WIDTH, wrapped
 from sim.show.texts import Words
 

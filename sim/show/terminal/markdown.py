@@ -10,7 +10,7 @@ from itertools import zip_longest
 from typing import NamedTuple
 
 from parser.text.encoding import printable
-from parser.text.excerpt import cells
+from parser.text.places import cells
 from sim.show.terminal.wrap import WIDTH, wrapped
 
 _SET_IN = "    "  # of fenced text

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from parser.findings.catalogue import Language, texts
 from parser.findings.codes import Severity
-from parser.findings.facts import ReadAs
+from parser.findings.findings import ReadAs
 from sim.make.cam.maker import MadeProgram
 from sim.make.cam.proof.target import Proof
 from sim.show.terminal.colours import COLOURS, painted, styled

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from controller.offset.rows import RowOrigin
 from parser.findings.catalogue import Language, length, remark_text
-from parser.findings.facts import ReadAs
+from parser.findings.findings import ReadAs
 from parser.shape.contours import Contour
 from parser.shape.passes import Pass
 from parser.text.source import BlockNames

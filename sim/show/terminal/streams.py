@@ -14,8 +14,7 @@ import os
 import sys
 from typing import Final, Self, TextIO, cast
 
-from parser.findings.errors import DrycutError
-from parser.findings.messages import system_message
+from parser.findings.errors import DrycutError, system_message
 from parser.text.encoding import harmless
 
 _PLAIN: Final = {"µ": "u", "×": "x", "–": "-", "−": "-", "·": "-", "…": "...", "≤": "<=", "≥": ">=", "²": "2"}

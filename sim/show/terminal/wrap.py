@@ -12,7 +12,7 @@ from functools import lru_cache
 from itertools import groupby
 from typing import Final, NamedTuple, TextIO
 
-from parser.text.excerpt import cells, first_cells
+from parser.text.places import cells, first_cells
 
 WIDTH: Final = 80
 """Cells of a line where nobody looks at a terminal: files, pipes and logs get the same bytes everywhere."""

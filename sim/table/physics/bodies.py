@@ -6,7 +6,7 @@ may have ticks of its own.
 
 import pymunk
 
-from parser.controller_words.step_words import Axis
+from parser.controller_words import Axis
 from parser.geometry.curves import Floats
 from sim.setup.machine.table_model import TableModel
 from sim.table.physics.state import Slide

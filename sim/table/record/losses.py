@@ -6,7 +6,7 @@ Peaks: the largest force, speed and lag of each axis, and how near they came to 
 from collections.abc import Iterable
 from typing import Final, Literal, NamedTuple
 
-from parser.controller_words.step_words import Axis
+from parser.controller_words import Axis
 from sim.base.units import newtons
 from sim.table.physics.drive import Drive
 from sim.table.record.history import PEAK_COLUMNS, Record

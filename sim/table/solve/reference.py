@@ -3,7 +3,7 @@
 It is some thousand times slower than the compiled loop, which tests hold against it.
 """
 
-from parser.controller_words.step_words import Axis as AxisName
+from parser.controller_words import Axis as AxisName
 from sim.table.physics.bodies import Bodies
 from sim.table.record.history import Record
 from sim.table.solve.axis import Axis, AxisDemand, State

@@ -11,8 +11,8 @@ from typing import NamedTuple
 import numpy as np
 
 from controller.motion.plan import Plan
+from parser.geometry.along import directions
 from parser.geometry.curves import Floats, Ints
-from parser.geometry.directions import directions
 from parser.toolpath import Toolpath
 from sim.setup.machine.table_model import TableModel
 from sim.table.physics.drive import drives_of

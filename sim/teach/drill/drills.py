@@ -17,7 +17,7 @@ from parser.geometry.along import places
 from parser.geometry.curves import Floats, Ints
 from parser.geometry.distance import distance_to_curves
 from parser.program import Program, parse_program
-from parser.shape.closing import CLOSED_WITHIN_UM
+from parser.shape.contours import CLOSED_WITHIN_UM
 from parser.toolpath import Toolpath
 from sim.check.file_check import check_program
 from sim.check.result import CheckResult

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from random import Random
 
 from parser.dialect.reader import Spelling
-from parser.step_words.labels import SENSES
+from parser.step_words.words import SENSES
 from parser.text.source import Field
 from sim.teach.drill.sound import Slip, Sound
 

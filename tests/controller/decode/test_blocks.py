@@ -9,7 +9,7 @@ from places import ROOT
 
 from controller.decode.blocks import Decoded, decoded
 from controller.decode.document import document_text
-from parser.dialect.choices import Choices
+from parser.dialect.reader import Choices
 from parser.findings.errors import ProgramError
 from parser.program import parse_program
 from sim.show.decoded import way_texts

@@ -5,8 +5,21 @@ from typing import Annotated, Any, Literal, TypedDict
 import pytest
 from jsonschema import Draft202012Validator
 
-from parser.documents.fields import BlockRange, Code, Count, Ordinal, Positive, Size, Text, between, of_length, one_of
-from parser.documents.schema import Document, Law, document_schema
+from parser.documents import (
+    BlockRange,
+    Code,
+    Count,
+    Document,
+    Law,
+    Ordinal,
+    Positive,
+    Size,
+    Text,
+    between,
+    document_schema,
+    of_length,
+    one_of,
+)
 
 
 class Hole(TypedDict):

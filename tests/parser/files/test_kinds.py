@@ -10,7 +10,7 @@ from command import run_inside
 from places import ROOT
 
 from parser.drawing.read import read_drawing
-from parser.files.kinds import HINTS, kind_of
+from parser.files import HINTS, kind_of
 from parser.findings.catalogue import LANGUAGES, term, texts
 from parser.findings.errors import DrawingError, ProgramError
 from parser.program import load_program

@@ -11,15 +11,21 @@ from pathlib import Path
 import pytest
 from command import run_command, run_inside
 
-from parser.files import reading
-from parser.files.reading import LIMIT_NAME, MOST_MB, limit_mb, read_bytes, read_text
+from parser import files
+from parser.files import (
+    LIMIT_NAME,
+    MOST_MB,
+    limit_mb,
+    read_bytes,
+    read_text,
+)
 from parser.findings.errors import DrycutError, FileUnreadableError, SettingsError
 
 ROOT = Path(__file__).parents[3]
 SHIPPED = {
     *("parser/findings/catalogue.py", "sim/show/texts/texts.py", "sim/setup/key_words.py", "sim/setup/key_tables.py"),
     *("sim/show/html/environment.py", "sim/show/findings/catalogue_document.py", "sim/show/terminal/documents.py"),
-    *("parser/iso/profiles/profile.py", "parser/write/iso_choices.py", "parser/drawing/dxf/linetypes.py"),
+    *("parser/iso/profiles/profile.py", "parser/write/iso.py", "parser/drawing/dxf/document.py"),
     *("controller/compiled/loops.py", "sim/base/workers/makers.py"),  # our own modules
     "sim/check/own_checks.py",  # which distributions offer checks
     "sim/serve/page/shortcut.py",  # its icon
@@ -99,7 +105,7 @@ def test_a_file_that_grows_while_it_is_read_stays_below_the_limit(
     part = tmp_path / "part.3b"
     part.write_bytes(b" " * 2_000_000)
     empty = os.stat_result((stat.S_IFREG, *[0] * 9))  # as files of /proc are
-    monkeypatch.setattr(reading.os, "fstat", lambda descriptor: empty)
+    monkeypatch.setattr(files.os, "fstat", lambda descriptor: empty)
     with pytest.raises(FileUnreadableError, match="larger"):
         read_bytes(part)
 
@@ -152,7 +158,7 @@ def test_nothing_else_reads_files() -> None:
             text = file.read_text("utf-8")
             if _MAY_READ.search(text) and any(_reads(node) for node in ast.walk(ast.parse(text))):
                 found.add(file.relative_to(ROOT).as_posix())
-    assert found == {*SHIPPED, *OWN, "parser/files/reading.py"}
+    assert found == {*SHIPPED, *OWN, "parser/files.py"}
 
 
 def _reads(node: ast.AST) -> bool:

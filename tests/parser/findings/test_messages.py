@@ -12,8 +12,7 @@ import pytest
 from places import ROOT
 
 from parser.findings.catalogue import Bilingual, message_templates, term
-from parser.findings.errors import DrawingError, FileUnreadableError, SettingsError
-from parser.findings.messages import Message, in_both, system_message
+from parser.findings.errors import DrawingError, FileUnreadableError, Message, SettingsError, in_both, system_message
 
 CODES = sorted(message_templates())
 CHINESE = re.compile(r"[\u4e00-\u9fff\uff08-\uff1a]")

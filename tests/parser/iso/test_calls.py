@@ -5,7 +5,7 @@ import random
 import pytest
 from depth import cases
 
-from parser.dialect.choices import Choices
+from parser.dialect.reader import Choices
 from parser.program import Program, parse_program
 
 FANUC_CASE = """%

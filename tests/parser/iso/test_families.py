@@ -7,7 +7,7 @@ import pytest
 from iso_programs import FAMILIES, program
 from iso_writer import IsoProgram
 
-from parser.dialect.choices import Choices
+from parser.dialect.reader import Choices
 from parser.findings.codes import Severity
 from parser.program import Program, parse_program
 from sim.check.file_check import Job, check_file

@@ -2,7 +2,7 @@
 
 import pytest
 
-from parser.dialect.choices import Choices
+from parser.dialect.reader import Choices
 from parser.findings.errors import ProgramError
 from parser.iso.profiles.profile import PROFILES
 from parser.program import parse_program

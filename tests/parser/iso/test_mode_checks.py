@@ -6,7 +6,7 @@ from random import Random
 import numpy as np
 import pytest
 
-from parser.dialect.choices import Choices
+from parser.dialect.reader import Choices
 from parser.findings.codes import Severity
 from parser.findings.findings import Finding
 from parser.program import Program, parse_program

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from parser.dialect.choices import Choices
+from parser.dialect.reader import Choices
 from parser.program import parse_program
 from parser.toolpath import Toolpath
 from tests.tools.plain_iso import PlainIso, PlainRow

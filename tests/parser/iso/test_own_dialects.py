@@ -9,11 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from parser.dialect.choices import Choices, OwnDialect
+from parser.dialect.reader import Choices, OwnDialect
 from parser.findings.errors import SettingsError
 from parser.iso.profiles import profile as profiles_module
-from parser.iso.profiles.own import own_dialect, own_dialect_text
-from parser.iso.profiles.profile import PROFILES, profile
+from parser.iso.profiles.profile import PROFILES, own_dialect, own_dialect_text, profile
 from parser.program import parse_program
 from parser.text.places import KeyPlaces
 

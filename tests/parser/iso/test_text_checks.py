@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from parser.dialect.choices import Choices
+from parser.dialect.reader import Choices
 from parser.findings.codes import Severity
 from parser.findings.findings import Finding, edited
 from parser.iso.listing.lexer import read_listing

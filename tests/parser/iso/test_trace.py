@@ -2,8 +2,8 @@
 
 import pytest
 
-from parser.dialect.choices import Choices
 from parser.dialect.decoding import UNREAD, DecodedBlock
+from parser.dialect.reader import Choices
 from parser.iso.listing.lexer import read_listing
 from parser.iso.profiles.profile import profile
 from parser.iso.trace import Trace, binary_coded, flags

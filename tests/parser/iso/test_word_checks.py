@@ -4,10 +4,9 @@ from random import Random
 
 import pytest
 
-from parser.dialect.choices import Choices
+from parser.dialect.reader import Choices
 from parser.findings.codes import Severity
-from parser.findings.facts import TooLarge, telling
-from parser.findings.findings import Finding
+from parser.findings.findings import Finding, TooLarge, telling
 from parser.iso.listing.lexer import read_listing
 from parser.iso.profiles.profile import PROFILES, profile
 from parser.iso.words.word_checks import GROUPS, word_findings

@@ -7,8 +7,7 @@ import pytest
 from sound_4b import outline_4b
 
 from parser.program import parse_program
-from parser.write.curve_marks import curve_marks
-from parser.write.draft import draft_of
+from parser.write.draft import curve_marks, draft_of
 from parser.write.threeb import ThreeBChoices, written_3b
 
 

@@ -4,15 +4,14 @@ import numpy as np
 import pytest
 from twins import BLOCKS_3B, BLOCKS_ISO, PAIRS, START_3B, TWIN_3B, TWIN_ISO, motion
 
-from parser.controller_words.compensation import Compensation, CompensationRules
-from parser.dialect.choices import Choices
+from parser.controller_words import Compensation, CompensationRules
+from parser.dialect.reader import Choices
 from parser.findings.errors import SettingsError
 from parser.geometry.curves import CurveKind, curves_between
 from parser.program import dialects, parse_program
 from parser.toolpath import Stop, Toolpath
 from parser.write.draft import Draft, draft_of, without_rapids
-from parser.write.iso import written_iso
-from parser.write.iso_choices import IsoChoices, iso_choices
+from parser.write.iso import IsoChoices, iso_choices, written_iso
 from parser.write.threeb import Form, ThreeBChoices, written_3b
 
 FORMS: tuple[Form, ...] = ("compact", "aligned", "detailed")

@@ -11,8 +11,8 @@ from compensating import LINUXCNC, TEXTBOOK
 
 from controller.offset.reach import reach
 from controller.offset.sections import Side
-from parser.controller_words.compensation import CompensationRules
-from parser.dialect.choices import Choices
+from parser.controller_words import CompensationRules
+from parser.dialect.reader import Choices
 from parser.findings.catalogue import LANGUAGES, texts
 from parser.findings.codes import Check, Severity
 from parser.findings.findings import Finding

@@ -5,7 +5,7 @@ import random
 import pytest
 from iso_programs import FAMILIES, program
 
-from parser.dialect.choices import Choices
+from parser.dialect.reader import Choices
 from parser.program import load_program
 from sim.check.engine import run_checks
 from sim.check.path_checks import Demands

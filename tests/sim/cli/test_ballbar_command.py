@@ -18,7 +18,7 @@ from jsonschema import Draft202012Validator
 from PIL import Image
 from places import ROOT
 
-from parser.controller_words.step_words import Axis
+from parser.controller_words import Axis
 from parser.findings.catalogue import LANGUAGES, Language
 from sim.base.progress import silent
 from sim.cli.ballbar import ballbar as command

@@ -8,7 +8,7 @@ from command import run_inside
 from jsonschema import Draft202012Validator
 from places import ROOT
 
-from parser.text.excerpt import cells
+from parser.text.places import cells
 
 SCHEMA = json.loads((ROOT / "docs" / "decode.schema.json").read_text(encoding="utf-8"))
 COURSE = "N06 G90 G41 D11 G01 X200 Y300 F200 ;\n"

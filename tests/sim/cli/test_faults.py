@@ -13,7 +13,7 @@ from command import run_inside
 
 import sim.check.file_check
 from parser.program import Program
-from parser.text.excerpt import cells
+from parser.text.places import cells
 from sim.cli.faults import EXIT
 
 

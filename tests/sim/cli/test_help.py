@@ -7,7 +7,7 @@ import click
 import pytest
 from command import run_inside
 
-from parser.text.excerpt import cells
+from parser.text.places import cells
 from sim.cli import cli
 from sim.cli.spoken import Spoken
 from sim.show.texts.texts import texts

@@ -14,7 +14,12 @@ from iso_at_home import DIE, ROUNDS, ROUNDS_BOX_UM, ROUNDS_CUT_UM
 from jsonschema import Draft202012Validator
 from places import ROOT
 
-from parser.dialect.choices import UNITS, Choices, merged, register_name
+from parser.dialect.reader import (
+    UNITS,
+    Choices,
+    merged,
+    register_name,
+)
 from parser.program import dialects, load_program
 from sim.check.programmed import Programmed, programmed_of
 from sim.check.settings import CheckSettings

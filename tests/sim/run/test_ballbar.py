@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from runs import machine
 
-from parser.controller_words.step_words import Axis
+from parser.controller_words import Axis
 from parser.findings.errors import SettingsError
 from sim.base.progress import silent
 from sim.base.units import parse_speed

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from runs import machine
 
-from parser.controller_words.step_words import Axis
+from parser.controller_words import Axis
 from sim.base.progress import silent
 from sim.run.ballbar.circle import Ballbar, circle_test, run_test
 from sim.run.ballbar.parts import DeviationParts

@@ -10,7 +10,7 @@ from runs import codes, lawful, plain_scenario, scenario_run
 
 from controller.offset.rows import RowOrigin
 from controller.offset.sections import Side
-from parser.dialect.choices import Choices
+from parser.dialect.reader import Choices
 from parser.findings.catalogue import texts
 from parser.findings.codes import Severity
 from parser.findings.errors import ProgramError, SettingsError

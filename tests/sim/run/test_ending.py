@@ -10,7 +10,7 @@ import pytest
 from runs import codes, machine, run_text, scenario_run
 
 from controller.card.log.writer import CardLog
-from parser.controller_words.step_words import Axis
+from parser.controller_words import Axis
 from parser.program import parse_program
 from sim.run.dryrun import DryRun
 from sim.run.report import build_report

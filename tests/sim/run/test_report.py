@@ -10,7 +10,7 @@ import pytest
 from report_schema import complaints
 from runs import plain_scenario, run_text
 
-from parser.controller_words.step_words import Axis
+from parser.controller_words import Axis
 from parser.program import parse_program
 from sim.base.progress import silent
 from sim.jobs.run_into import run_into

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from places import MACHINES, ROOT
 
-from parser.controller_words.step_words import Axis
+from parser.controller_words import Axis
 from parser.findings.errors import SettingsError
 from parser.units import from_mm
 from sim.setup.machine.machine import Machine, load_machine

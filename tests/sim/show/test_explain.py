@@ -11,7 +11,7 @@ from places import ROOT
 
 from parser.findings.catalogue import LANGUAGES, Language, example, page
 from parser.findings.codes import CODES
-from parser.text.excerpt import cells
+from parser.text.places import cells
 from sim.show.findings.pages import page_text
 from sim.show.terminal.documents import cited, document, documents, files, section, title
 from sim.show.terminal.markdown import plain, shown_lines

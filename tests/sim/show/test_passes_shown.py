@@ -11,8 +11,7 @@ from recorder import recording_sheet
 from trimmed import offset_run, trimmed_run, untrimmed_run
 
 from parser.findings.catalogue import LANGUAGES
-from parser.geometry.along import places
-from parser.geometry.directions import headings, to_left
+from parser.geometry.along import headings, places, to_left
 from parser.shape.passes import Pass
 from sim.run.course import course_of
 from sim.run.recording import Recording

@@ -11,7 +11,7 @@ from places import ROOT
 from recorder import Recorder, recording_sheet
 from runs import plain_scenario, run_folder
 
-from parser.dialect.choices import Choices
+from parser.dialect.reader import Choices
 from parser.program import parse_program, read_program
 from sim.run.recording import NO_PIECES, Recording
 from sim.setup.scenario import load_scenario

@@ -8,7 +8,7 @@ import pytest
 from command import run_inside
 from places import SCENARIOS
 
-from parser.text.excerpt import cells
+from parser.text.places import cells
 from sim.show.terminal.colours import styled
 from sim.show.terminal.layout import show, table
 from sim.show.terminal.printer import say

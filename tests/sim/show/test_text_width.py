@@ -11,7 +11,7 @@ from places import ROOT
 from parser.findings.catalogue import LANGUAGES, Language, example, texts
 from parser.findings.codes import CODES
 from parser.findings.findings import Finding
-from parser.text.excerpt import caret_lines, cells
+from parser.text.places import caret_lines, cells
 from sim.check.file_check import Job, check_file
 from sim.check.result import CheckResult
 from sim.check.settings import CheckSettings

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from parser.controller_words.step_words import Axis
+from parser.controller_words import Axis
 from parser.findings.catalogue import texts
 from parser.program import Program, parse_program
 from sim.setup.machine.table_model import Motor

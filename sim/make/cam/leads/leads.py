@@ -13,8 +13,8 @@ import numpy as np
 
 from controller.offset.rows import lines_between
 from parser.drawing.model import running
+from parser.geometry.along import directions, to_left
 from parser.geometry.curves import Curves, Floats, curves_between, joined
-from parser.geometry.directions import directions, to_left
 from sim.make.cam.model import Thread
 from sim.setup.making import LeadIn
 

@@ -6,9 +6,9 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from controller.offset.gouges import approaches
-from parser.geometry.broad_phase_places import near_places
 from parser.geometry.curves import Bools, Curves, Floats, Ints, joined
 from parser.geometry.distance import feet
+from parser.geometry.near import near_places
 from sim.make.cam.model import Figure
 
 TOLERANCE_UM: Final = 0.05

@@ -9,13 +9,12 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from controller.offset.gouges import Approaches, approaches_of
-from parser.drawing.loops.overlaps import over
+from parser.drawing.loops.once import over
 from parser.drawing.model import BESIDE_UM
 from parser.findings.catalogue import Remark
 from parser.geometry.along import along_um, places, places_at
-from parser.geometry.broad_phase_pairs import near_pairs
-from parser.geometry.broad_phase_places import nearest_um
 from parser.geometry.curves import Bools, Curves, Floats, Ints, is_inside, joined
+from parser.geometry.near import near_pairs, nearest_um
 from parser.toolpath import Point
 from parser.units import mm
 from sim.make.cam.model import CannotCutError, Figure, Refusal

@@ -6,10 +6,9 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from parser.drawing.model import SAME_WITHIN_UM, Drawing, DrawnLoop, running
-from parser.geometry.along import places
+from parser.geometry.along import places, to_left
 from parser.geometry.curves import Bools, Curves, Floats, Ints, curves_between
-from parser.geometry.directions import to_left
-from parser.geometry.meets import prolonged_meet
+from parser.geometry.distance import prolonged_meet
 
 _FAR: Final = 3.0  # times the gap: curves that meet farther off are not prolonged to there
 _SHORTER: Final = 0.4  # of its length: no curve is prolonged or cut at an end by more than that

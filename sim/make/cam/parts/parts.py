@@ -11,9 +11,9 @@ import shapely
 
 from parser.drawing.loops.chain import DOT_UM, flat_loops
 from parser.drawing.model import BESIDE_UM, SAME_WITHIN_UM, Drawing, DrawnLoop, Entity, LeftOut, running
-from parser.geometry.broad_phase_places import near_places, nearest_um
 from parser.geometry.curves import Bools, Curves, Floats, Ints, extents, joined
 from parser.geometry.distance import distance_to_curves
+from parser.geometry.near import near_places, nearest_um
 from parser.toolpath import Point
 from parser.units import mm
 from sim.make.cam.model import CannotCutError, Figure, Parts, Refusal

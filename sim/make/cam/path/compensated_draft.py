@@ -9,9 +9,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.controller_words.compensation import Compensation, CompensationRules
+from parser.controller_words import Compensation, CompensationRules
+from parser.geometry.along import directions
 from parser.geometry.curves import Curves, joined, jump_between
-from parser.geometry.directions import directions
 from parser.toolpath import Point, Stop
 from parser.write.draft import Draft
 from sim.make.cam.model import CannotCutError, CutPlan, FigureCut, PassCut, Refusal

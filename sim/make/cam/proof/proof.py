@@ -13,8 +13,7 @@ import shapely
 from parser.drawing.model import Drawing
 from parser.findings.catalogue import Remark
 from parser.findings.errors import ProgramError, SettingsError
-from parser.findings.facts import OfAddedOffset, WithoutOffset
-from parser.findings.findings import Finding
+from parser.findings.findings import Finding, OfAddedOffset, WithoutOffset
 from parser.geometry.along import places
 from parser.geometry.curves import Bools, Ints
 from parser.program import Program

@@ -14,8 +14,7 @@ import shapely
 from parser.drawing.model import SAME_WITHIN_UM, Drawing, DrawnLoop, Entity, running
 from parser.findings.catalogue import Remark
 from parser.findings.codes import Severity
-from parser.findings.facts import TightCorner
-from parser.findings.findings import Finding, Value
+from parser.findings.findings import Finding, TightCorner, Value
 from parser.geometry.curves import Curves, Floats, Ints, curves_between, extents, joined
 from parser.toolpath import Point
 from parser.units import mm

@@ -5,9 +5,8 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from parser.geometry.along import along_um, headings_along, places_at
+from parser.geometry.along import along_um, directions, headings_along, places_at, to_left
 from parser.geometry.curves import Bools, Curves, Floats, Ints
-from parser.geometry.directions import directions, to_left
 from parser.geometry.distance import feet
 from parser.toolpath import Point
 from sim.make.cam.leads.room import Room

@@ -6,9 +6,9 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from controller.offset.rows import lines_between
-from parser.geometry.broad_phase_places import near_places
 from parser.geometry.curves import Bools, Floats, Ints, extents, is_inside
 from parser.geometry.distance import distance_to_curves
+from parser.geometry.near import near_places
 from parser.toolpath import Point
 from sim.make.cam.leads.room import Room, are_free
 from sim.make.cam.model import CannotCutError, Entry, Figure, Refusal

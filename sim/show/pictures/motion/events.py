@@ -5,7 +5,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from parser.findings.facts import telling
+from parser.findings.findings import telling
 from sim.run.course import passes_of, stops_of
 from sim.run.dryrun import DryRun
 from sim.show.draw import style

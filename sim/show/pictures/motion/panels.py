@@ -6,7 +6,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from parser.controller_words.step_words import Axis
+from parser.controller_words import Axis
 from parser.geometry.curves import Floats, Ints
 from parser.units import mm
 from sim.base.units import in_figures

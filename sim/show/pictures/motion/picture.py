@@ -11,7 +11,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from parser.controller_words.step_words import Axis
+from parser.controller_words import Axis
 from parser.geometry.curves import Floats, total_before
 from sim.run.dryrun import DryRun
 from sim.show.draw import style

@@ -8,11 +8,10 @@ from functools import cache
 import numpy as np
 import pytest
 
-from parser.drawing.dxf.forms import Spline, ellipse_form
-from parser.drawing.fit.ellipses import arcs_of_ellipses
-from parser.drawing.fit.fitted import Fitted
-from parser.drawing.fit.splines import arcs_of_splines
-from parser.drawing.plane.splined import places_at
+from parser.drawing.dxf.entities import Spline, ellipse_form
+from parser.drawing.fit.curves import arcs_of_ellipses, arcs_of_splines
+from parser.drawing.fit.pieces import Fitted
+from parser.drawing.plane import places_at
 from parser.geometry.curves import Curves, Floats
 from tests.tools.plain_arc_bounds import at_most_off, ellipse_pieces, spline_pieces
 

@@ -7,10 +7,10 @@ import pytest
 import shapely
 from drawings_dxf import drawn as drawn_file
 
-from parser.drawing.fit.fitted import Fitted
-from parser.drawing.fit.lines import polylines
-from parser.drawing.fit.lines.polylines import FEWEST_LINES, best_bulges, off_um
-from parser.drawing.fit.loops import loops_with_arcs
+from parser.drawing.fit import polylines
+from parser.drawing.fit.curves import loops_with_arcs
+from parser.drawing.fit.pieces import Fitted
+from parser.drawing.fit.polylines import FEWEST_LINES, best_bulges, off_um
 from parser.drawing.model import Drawing, DrawnLoop, Entity, running
 from parser.drawing.read import read_drawing
 from parser.geometry.along import places

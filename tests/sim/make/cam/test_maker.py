@@ -9,7 +9,7 @@ from ezdxf.layouts import Modelspace
 from made_programs import plate_file
 from runs import plain_scenario
 
-from parser.write.iso_choices import iso_choices
+from parser.write.iso import iso_choices
 from sim.check.engine import run_checks
 from sim.check.path_checks import Demands
 from sim.make.cam.document import figure_sums

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from twins import TWIN_3B, TWIN_ISO
 
-from parser.dialect.choices import Choices
+from parser.dialect.reader import Choices
 from parser.program import Program, load_program, parse_program
-from parser.write.iso_choices import iso_choices
+from parser.write.iso import iso_choices
 from sim.check.engine import run_checks
 from sim.check.path_checks import Demands
 from sim.make.convert import convert as conversion

@@ -7,7 +7,7 @@ import pytest
 from depth import cases
 
 from parser.program import parse_program
-from parser.write.iso_choices import iso_choices
+from parser.write.iso import iso_choices
 from sim.make.convert.convert import Converted, converted
 from sim.make.convert.wanted import Language, Wanted
 
@@ -15,7 +15,7 @@ SQUARE = "G90 G92 X0 Y0\nG01 X10. Y0. F3.\nG04 X2.\nG01 X10. Y20.\nM01\nG01 X0. 
 
 
 def done(text: str, wanted: Wanted, dialect: str = "") -> Converted:
-    from parser.dialect.choices import Choices
+    from parser.dialect.reader import Choices
 
     made = converted(parse_program(text, choices=Choices(dialect=dialect)), wanted)
     assert isinstance(made, Converted), made

@@ -10,7 +10,7 @@ import pytest
 import sound
 from places import ROOT
 
-from parser.dialect.choices import Choices
+from parser.dialect.reader import Choices
 from parser.findings.codes import Severity
 from parser.geometry.curves import extents
 from parser.program import Program, load_program, parse_program

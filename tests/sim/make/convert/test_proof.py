@@ -7,14 +7,13 @@ import numpy as np
 import pytest
 from twins import TWIN_3B
 
-from parser.controller_words.compensation import Compensation, CompensationRules
-from parser.dialect.choices import Choices
+from parser.controller_words import Compensation, CompensationRules
+from parser.dialect.reader import Choices
 from parser.geometry.curves import CurveKind
 from parser.program import parse_program
 from parser.toolpath import Toolpath
 from parser.write.draft import draft_of
-from parser.write.iso import written_iso
-from parser.write.iso_choices import iso_choices
+from parser.write.iso import iso_choices, written_iso
 from sim.make.convert.proof import proof
 
 DRAFT = draft_of(parse_program(TWIN_3B + "").toolpath)

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 import sound
 
-from parser.controller_words.step_words import StepWords
+from parser.controller_words import StepWords
 from parser.geometry.curves import Bools
 from parser.program import Program, dialects, load_program
 from parser.toolpath import Toolpath
-from parser.write.iso_choices import iso_choices
+from parser.write.iso import iso_choices
 from sim.make.convert.convert import Converted, converted
 from sim.make.convert.wanted import Wanted
 

@@ -8,7 +8,7 @@ import pytest
 import sound
 from places import ROOT
 
-from parser.dialect.choices import Choices
+from parser.dialect.reader import Choices
 from parser.findings.findings import edited
 from parser.program import Program, load_program, parse_program
 from sim.serve.editor.shown import layout_of

@@ -16,9 +16,9 @@ import numpy as np
 
 from controller.offset.reach import OffsetLoop
 from controller.offset.shifted import turned_rad
+from parser.geometry.along import directions, to_left
 from parser.geometry.curves import Bools, Curves, Floats, Ints, curves_between, joined
-from parser.geometry.directions import directions, to_left
-from parser.geometry.meets import prolonged_meet
+from parser.geometry.distance import prolonged_meet
 
 
 class Met(NamedTuple):

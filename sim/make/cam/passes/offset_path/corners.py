@@ -10,11 +10,10 @@ import numpy as np
 
 from controller.offset.joints import SHARPEST_RAD
 from controller.offset.reach import OffsetLoop
-from parser.geometry.along import places
-from parser.geometry.broad_phase_places import near_curves
+from parser.geometry.along import directions, places
 from parser.geometry.curves import Bools, Curves, Floats, Ints, curves_between, joined
-from parser.geometry.directions import directions
 from parser.geometry.distance import distance_to_curves, feet
+from parser.geometry.near import near_curves
 from sim.make.cam.passes.offset_path.convex import Met, met_near, with_ends
 from sim.setup.making import Corners
 

@@ -17,9 +17,8 @@ import numpy as np
 
 from controller.offset.reach import OffsetLoop, reach
 from controller.offset.sections import Side
-from parser.geometry.along import along_um, places, places_at
+from parser.geometry.along import along_um, directions, places, places_at
 from parser.geometry.curves import Curves, Floats, Ints, total_before
-from parser.geometry.directions import directions
 from parser.toolpath import Point
 from sim.make.cam.model import CannotCutError, Figure, Refusal
 from sim.make.cam.passes.offset_path.convex import Met, beside_convex, met_near, with_ends

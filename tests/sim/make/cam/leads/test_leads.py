@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
-from parser.geometry.along import places
+from parser.geometry.along import directions, places
 from parser.geometry.curves import Curves, curves_between
-from parser.geometry.directions import directions
 from parser.toolpath import Point
 from sim.make.cam.leads.leads import lead_in, lead_of, lead_out
 from sim.make.cam.leads.room import are_free, balls_um, nearest, room_of

@@ -10,7 +10,7 @@ from made_programs import plate_file
 from runs import plain_scenario
 
 from parser.geometry.curves import CurveKind
-from parser.write.iso_choices import iso_choices
+from parser.write.iso import iso_choices
 from sim.check.engine import run_checks
 from sim.check.path_checks import Demands
 from sim.make.cam.maker import MadeProgram, NotMade, unproved

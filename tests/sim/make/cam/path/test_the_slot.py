@@ -7,11 +7,11 @@ from ezdxf.layouts import Modelspace
 from made_programs import plan_of
 from twins import motion
 
-from parser.dialect.choices import Choices
+from parser.dialect.reader import Choices
 from parser.program import parse_program
 from parser.toolpath import Point
 from parser.write.draft import Draft
-from parser.write.iso_choices import iso_choices
+from parser.write.iso import iso_choices
 from sim.check.engine import run_checks
 from sim.check.path_checks import Demands
 from sim.make.cam.path.compensated_draft import draft_of_plan

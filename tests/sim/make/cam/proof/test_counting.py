@@ -3,8 +3,7 @@
 from types import MappingProxyType
 from typing import Any, cast
 
-from parser.findings.facts import TightCorner
-from parser.findings.findings import Finding
+from parser.findings.findings import Finding, TightCorner
 from sim.make.cam.proof.target import Proof
 from sim.measure.compare.result import Comparison
 from sim.setup.wire import DEFAULT_WIRE

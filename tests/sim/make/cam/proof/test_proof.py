@@ -11,7 +11,7 @@ from runs import machine, plain_scenario
 
 from parser.geometry.curves import curves_between
 from parser.toolpath import Point
-from parser.write.iso_choices import iso_choices
+from parser.write.iso import iso_choices
 from sim.make.cam.model import CutPlan, FigureCut
 from sim.make.cam.passes.passes import figure_cut
 from sim.make.cam.proof.target import Proof

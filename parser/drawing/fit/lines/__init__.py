@@ -1,1 +1,0 @@
-"""Dense polylines as arcs through their vertices; the border type is `Fitted`."""
