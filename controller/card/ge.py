@@ -1,15 +1,11 @@
 """`GECard`: all functions of the card's library on one class."""
 
-from controller.card.calls.axis import PositionCalls
-from controller.card.calls.list import ListCalls
-from controller.card.calls.lookahead_mode import LookAheadCalls
+from controller.card.calls.axis import IoCalls, PositionCalls, StatusCalls
+from controller.card.calls.list import ListCalls, StopCalls
+from controller.card.calls.lookahead import LookAheadCalls
 from controller.card.calls.path_base import ArcCalls, LineCalls, MoveCalls, StepCalls
-from controller.card.calls.recorded import GuardCalls, RecordedCalls
-from controller.card.calls.servo import ServoCalls
-from controller.card.calls.special import SpecialCalls
-from controller.card.calls.speed import SpeedCalls
-from controller.card.calls.status import IoCalls, StatusCalls
-from controller.card.calls.stop import StopCalls
+from controller.card.calls.recorded import GuardCalls, RecordedCalls, SpecialCalls
+from controller.card.calls.speed import ServoCalls, SpeedCalls
 from controller.card.core.state import LimitMet
 
 

@@ -65,7 +65,7 @@ class Loop:
             return self._code
 
     def _machine_code(self) -> "MachineCode":
-        from controller.compiled.store import store, stored  # noqa: PLC0415 - loaded with the machine code
+        from controller.compiled.machine_code import store, stored  # noqa: PLC0415 - loaded with the machine code
 
         name = f"{self.function.__module__}.{self.function.__name__}"
         if (code := stored(name, self.digest)) is None:

@@ -5,9 +5,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from controller.offset.block_ends import AsideEnds, JointKind, aside_ends, joint_kinds
+from controller.offset.chain import RowOrigin
+from controller.offset.joints import (
+    AsideEnds,
+    JointKind,
+    aside_ends,
+    joint_kinds,
+)
 from controller.offset.programmed import compensated
-from controller.offset.rows import RowOrigin
 from parser.dialect.decoding import DecodedBlock
 from parser.geometry.curves import CurveKind, Floats
 from parser.program import Program

@@ -4,7 +4,7 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from controller.card.core.units import UM_S2_PER_PULSE_MS2, UM_S_PER_PULSE_MS
+from controller.card.core.settings import UM_S2_PER_PULSE_MS2, UM_S_PER_PULSE_MS
 from controller.motion.plan import Plan
 from controller.motion.planner import RowLimits
 from parser.controller_words import StepWords

@@ -6,11 +6,20 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.offset.chain import Chain, joined_blocks
+from controller.offset.chain import (
+    Chain,
+    OffsetPath,
+    Order,
+    RowOrigin,
+    Rows,
+    bridge_rows,
+    in_order,
+    joined_blocks,
+    lines_between,
+    moved_rows,
+)
 from controller.offset.joints import Joining
-from controller.offset.rows import OffsetPath, Order, RowOrigin, Rows, bridge_rows, in_order, lines_between, moved_rows
-from controller.offset.sections import OffsetSection, Side
-from controller.offset.shifted import Blocks, shifted_blocks
+from controller.offset.shifted import Blocks, OffsetSection, Side, shifted_blocks
 from parser.geometry.curves import CurveKind, Curves, Floats, Ints
 
 

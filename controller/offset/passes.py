@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from controller.offset.sections import OffsetSection, Round
+from controller.offset.shifted import OffsetSection, Round
 from parser.geometry.curves import Bools, Curves, Floats, Ints
 from parser.shape.contours import CLOSED_WITHIN_UM
 from parser.toolpath import Stop, Toolpath

@@ -5,11 +5,20 @@ from typing import NamedTuple
 
 import numpy as np
 
-from controller.offset.alarms import Alarm, alarms_of
-from controller.offset.chain import Chain, joined_blocks
-from controller.offset.rows import OffsetPath, Order, RowOrigin, Rows, bridge_rows, in_order, lines_between, moved_rows
+from controller.offset.chain import (
+    Chain,
+    OffsetPath,
+    Order,
+    RowOrigin,
+    Rows,
+    bridge_rows,
+    in_order,
+    joined_blocks,
+    lines_between,
+    moved_rows,
+)
 from controller.offset.shifted import NOTHING_UM, Blocks, shifted_blocks
-from controller.offset.stretches import Runs, Stretch, idle_rows, known_sides, runs_of, stretches_of
+from controller.offset.stretches import Alarm, Runs, Stretch, alarms_of, idle_rows, known_sides, runs_of, stretches_of
 from parser.controller_words import CompensationRules
 from parser.geometry.curves import Bools, CurveKind, Curves, Floats, Ints
 from parser.toolpath import Toolpath

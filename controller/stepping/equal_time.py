@@ -18,7 +18,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from controller.motion.junctions import Path
+from controller.motion.limits import Path
 from controller.motion.plan import Plan
 from controller.stepping.pulses import Pulses
 from parser.geometry.curves import Floats, Ints

@@ -9,7 +9,7 @@ from typing import Protocol
 
 import numpy as np
 
-from controller.motion.junctions import Path
+from controller.motion.limits import Path
 from controller.motion.plan import Plan
 from controller.stepping.equal_time import ROUNDING_UM, Clock, SampledMotion
 from controller.stepping.pulses import Pulses, no_pulses, time_steps

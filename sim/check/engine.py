@@ -2,8 +2,8 @@
 
 from typing import TYPE_CHECKING, NamedTuple
 
+from controller.stepping.point_by_point import interpolate
 from controller.stepping.steps import Steps
-from controller.stepping.words import interpolate
 from parser.dialect.reader import in_codes
 from parser.findings.codes import Check
 from parser.findings.findings import Finding, TooLarge, file_order, telling

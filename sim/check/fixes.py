@@ -5,7 +5,7 @@ from collections import Counter
 from itertools import islice
 from typing import NamedTuple
 
-from controller.stepping.words import words_of
+from controller.stepping.point_by_point import words_of
 from parser.controller_words import Axis
 from parser.dialect.mender import Mend, Mender
 from parser.findings.findings import (

@@ -5,10 +5,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from controller.offset.chain import OffsetPath
 from controller.offset.gouges import TOLERANCE_UM, Gouge
 from controller.offset.passes import NoWayBack, PassedPath
-from controller.offset.rows import OffsetPath
-from controller.offset.sections import OffsetSection
+from controller.offset.shifted import OffsetSection
 from parser.dialect.reader import at_block
 from parser.findings.findings import Fact, Finding, Value
 from parser.geometry.along import places

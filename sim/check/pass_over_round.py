@@ -5,12 +5,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from controller.offset.gouges import TOLERANCE_UM, Gouge, gouges
+from controller.offset.chain import OffsetPath, RowOrigin
+from controller.offset.gouges import TOLERANCE_UM, Gouge, gouges, uncut_um
 from controller.offset.passes import PassedPath
 from controller.offset.reach import reach
-from controller.offset.rows import OffsetPath, RowOrigin
-from controller.offset.sections import Round, Side
-from controller.offset.uncut import uncut_um
+from controller.offset.shifted import Round, Side
 from parser.findings.findings import Finding
 from parser.geometry.curves import Curves, Floats, Ints
 from parser.program import Program

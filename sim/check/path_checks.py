@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from controller.stepping.point_by_point import interpolate
 from controller.stepping.steps import Steps
-from controller.stepping.words import interpolate
 from parser.findings.codes import Check
 from parser.findings.findings import DoubtfulEnd, Finding, telling
 from parser.geometry.curves import Ints

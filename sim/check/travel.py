@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from controller.stepping.point_by_point import interpolate
 from controller.stepping.steps import Steps
-from controller.stepping.words import interpolate
 from parser.controller_words import Axis
 from parser.dialect.reader import at_block
 from parser.findings.errors import ProgramError

@@ -12,7 +12,7 @@ from sim.cli.spoken.values import DecimalNumber, FilePath
 from sim.show.terminal.printer import say, write
 
 if TYPE_CHECKING:
-    from controller.card.log.replay import Difference, Replay
+    from controller.card.log import Difference, Replay
 
 SHOWN = 20
 """Differences that are printed; the others are counted."""
@@ -39,7 +39,7 @@ def replay(log: Path, as_json: bool) -> None:
     \b
     drycut card replay part.log
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
-    from controller.card.log.replay import replay_file
+    from controller.card.log import replay_file
 
     done = replay_file(log)
     differences: list[Difference] = []

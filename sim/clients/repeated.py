@@ -8,9 +8,8 @@ from controller.card.calls.base import Logged, slice_of
 from controller.card.core.state import LimitMet
 from controller.card.engine.motion import Driven
 from controller.card.ge import GECard
-from controller.card.log.lines import LONGEST_S, CardLogError, Damaged
-from controller.card.log.replay import call
-from controller.card.way.way import Way, WayRecorder
+from controller.card.log import LONGEST_S, CardLogError, Damaged, call
+from controller.card.way import Way, WayRecorder
 from controller.stepping.pulses import Pulses
 from sim.clients.session import ClientCall, Session
 

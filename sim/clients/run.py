@@ -11,8 +11,8 @@ import numpy as np
 
 from controller.host.entries import Drive
 from controller.motion.limits import row_limits
+from controller.stepping.point_by_point import interpolate
 from controller.stepping.pulses import Pulses
-from controller.stepping.words import interpolate
 from parser.findings.codes import Check
 from parser.program import Program
 from sim.base.progress import Progress, silent

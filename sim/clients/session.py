@@ -10,7 +10,14 @@ from typing import Final, NamedTuple, TypeAlias
 
 from controller.card.calls.base import Logged
 from controller.card.core.settings import CardSettings
-from controller.card.log.lines import CardLogError, Damaged, call_of, check_format, settings_of, time_of
+from controller.card.log import (
+    CardLogError,
+    Damaged,
+    call_of,
+    check_format,
+    settings_of_line,
+    time_of,
+)
 
 _HEAD: Final = 2
 """Lines before the first call: the format, and the settings."""
@@ -116,7 +123,7 @@ def session_of(name: str, lines: Iterable[str]) -> Session:
 def _head(name: str, numbered: Iterator[tuple[int, str]]) -> CardSettings:
     try:
         check_format(next(numbered, (1, ""))[1].rstrip("\n"))
-        return settings_of(next(numbered, (2, ""))[1].rstrip("\n"))
+        return settings_of_line(next(numbered, (2, ""))[1].rstrip("\n"))
     except Damaged as error:
         raise CardLogError("in-file", file=name, message=error.message) from None
 

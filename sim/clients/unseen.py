@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from itertools import groupby
 from typing import Final, NamedTuple
 
-from controller.card.core.codes import Code
+from controller.card.core.call import Code
 from controller.card.core.state import LimitMet
 from sim.clients.repeated import Again
 from sim.clients.session import ClientCall, Event, Questions, Session

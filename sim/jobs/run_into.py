@@ -9,8 +9,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Final
 
-from controller.card.log.lines import CardLogError
-from controller.card.log.writer import CardLog
+from controller.card.log import CardLog, CardLogError
 from parser.findings.catalogue import Language
 from parser.program import Program
 from sim.base.files import StepFiles, staged

@@ -5,7 +5,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from controller.card.core.settings import CardSettings
-from controller.card.log.writer import CardLog
+from controller.card.log import CardLog
 from sim.base.files import staged
 
 

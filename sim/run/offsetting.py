@@ -5,11 +5,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from controller.offset.chain import OffsetPath, offset_toolpath
 from controller.offset.compensate import compensate
 from controller.offset.passes import PassedPath, PassedRound, first_without_way_back, in_passes
-from controller.offset.rows import OffsetPath, offset_toolpath
-from controller.offset.sections import Side, rounds_of
-from controller.offset.shifted import closed_contour
+from controller.offset.shifted import Side, closed_contour, rounds_of
 from parser.findings.errors import ProgramError, SettingsError
 from parser.findings.findings import Finding, file_order, telling
 from parser.program import Program

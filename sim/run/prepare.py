@@ -6,8 +6,8 @@ from typing import NamedTuple
 import numpy as np
 
 from controller.motion.limits import Feeds
+from controller.stepping.point_by_point import interpolate
 from controller.stepping.steps import Steps
-from controller.stepping.words import interpolate
 from parser.dialect.reader import in_codes
 from parser.findings.codes import Check, Severity
 from parser.findings.findings import Finding, NotSimulated, WithoutOffset

@@ -10,7 +10,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from controller.card.log.writer import CardLog
+from controller.card.log import CardLog
 from controller.motion.limits import Feeds
 from controller.motion.plan import Plan
 from controller.stepping.pulses import Pulses

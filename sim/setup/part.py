@@ -6,7 +6,7 @@ from itertools import accumulate
 from pathlib import Path
 from typing import Any, Literal, NamedTuple, get_args
 
-from controller.offset.sections import Side
+from controller.offset.shifted import Side
 from parser.drawing.model import DEFAULT_GAP_UM
 from parser.findings.errors import Message, SettingsError
 from parser.text.encoding import printable

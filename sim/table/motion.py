@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from controller.card.core.settings import CardSettings
-from controller.card.log.writer import CardLog
+from controller.card.log import CardLog
 from controller.host.entries import Drive
 from controller.host.host import Host
 from controller.motion.limits import Feeds, row_limits

@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 
 from controller import GECard
-from controller.card.core.codes import AxisSts, Code
+from controller.card.core.call import AxisSts, Code
 from controller.card.core.settings import CardSettings, Switches, Wiring
 
 MACHINE = (Switches(-2000.0, 3000.0, (-600.0, -500.0), 1000.0), Switches())

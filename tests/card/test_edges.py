@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from controller.card.engine.entries import Pace, arc, line
 from controller.card.engine.events import heads_beyond, rises_through
-from controller.card.engine.making import path_of_segments
+from controller.card.engine.stretch import path_of_segments
 
 PACE = Pace(1.0, 1.0)
 STEP_UM = 0.05

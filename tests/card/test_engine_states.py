@@ -8,15 +8,15 @@ from typing import get_args
 import pytest
 from watched import ABNORMAL, IDLE, Watched
 
-from controller.card.core.codes import Code
+from controller.card.core.call import Code
 from controller.card.core.settings import Switches
-from controller.card.engine import engine, states
+from controller.card.engine import engine, motion
 from controller.card.engine.entries import ORIGIN
-from controller.card.engine.motion import CardMotion
-from controller.card.engine.states import (
+from controller.card.engine.motion import (
     Braking,
     BrokenList,
     BrokenMove,
+    CardMotion,
     Idle,
     ListRun,
     Move,
@@ -25,7 +25,16 @@ from controller.card.engine.states import (
     Running,
     Waiting,
 )
-from controller.card.lookahead.host import HostRules, ListLookAhead, Off, On, Unruled, ruled, switched_off, switched_on
+from controller.card.lookahead import (
+    HostRules,
+    ListLookAhead,
+    Off,
+    On,
+    Unruled,
+    ruled,
+    switched_off,
+    switched_on,
+)
 
 STATES = (*get_args(Resting), *get_args(Moving))
 
@@ -294,7 +303,7 @@ def test_random_calls_take_every_legal_way_and_no_other(monkeypatch):
             card.sleep(rng.choice([0.0, 1.0, 40.0, 600.0]))
         for before, after in pairwise(seen):
             ways.add((type(before), type(after)))
-            if isinstance(before, states.Moving) and isinstance(after, states.Moving):
+            if isinstance(before, motion.Moving) and isinstance(after, motion.Moving):
                 assert before.task == after.task, "a motion keeps its task until it rests"
     legal = {(before, after) for before, others in LEGAL.items() for after in others}
     assert ways - legal == set()

@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 from places import ROOT
 
 from controller import GECard
-from controller.card.core.codes import Code
-from controller.card.lookahead.data import TLookAheadMsg, TLookData
+from controller.card.core.call import Code
+from controller.card.lookahead import TLookAheadMsg, TLookData
 
 TABLE = ROOT / "controller" / "card" / "abi" / "ge-functions.csv"
 IN_POINTERS = {"char", "CCommandHandle", "TLookData"}

@@ -4,7 +4,7 @@ import pytest
 
 from controller import GECard
 from controller.card.calls.base import Logged
-from controller.card.core.codes import LIST_FULL, Code
+from controller.card.core.call import LIST_FULL, Code
 from controller.card.core.settings import CardSettings
 
 

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from controller import GECard
-from controller.card.core.codes import Code
+from controller.card.core.call import Code
 from controller.card.core.settings import CardSettings, Switches
 
 NUMBERS = [key for key in fields(CardSettings) if type(key.default) in (int, float)]

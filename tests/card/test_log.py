@@ -19,11 +19,20 @@ from hypothesis import strategies as st
 
 from controller import GECard
 from controller.card.calls.base import Logged
-from controller.card.core.codes import AxisSts
+from controller.card.core.call import AxisSts
 from controller.card.core.settings import CardSettings, Switches
-from controller.card.log.lines import LONGEST_S, CardLogError, call_of
-from controller.card.log.replay import Difference, Replay, replay_file
-from controller.card.log.writer import CardLog, call_text, settings_from, settings_text
+from controller.card.log import (
+    LONGEST_S,
+    CardLog,
+    CardLogError,
+    Difference,
+    Replay,
+    call_of,
+    call_text,
+    replay_file,
+    settings_from,
+    settings_text,
+)
 from parser.findings.errors import DrycutError, FileUnreadableError
 
 SWITCHES = (Switches(-5000.0, 8000.0, (-100.0, 50.5), 1000.0), Switches())

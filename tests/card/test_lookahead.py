@@ -9,9 +9,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from controller import GECard
-from controller.card.core.codes import Code
+from controller.card.core.call import Code
 from controller.card.core.settings import CardSettings
-from controller.card.lookahead.data import TLookAheadMsg, TLookData
+from controller.card.lookahead import TLookAheadMsg, TLookData
 
 
 def opened(**settings: Any) -> GECard:

@@ -10,12 +10,11 @@ from watched import IDLE, Watched
 
 from controller import GECard
 from controller.card.core.settings import CardSettings
-from controller.card.engine import making, motion_list
+from controller.card.engine import entries, stretch
 from controller.card.engine.entries import ORIGIN, Pace, Stepped
-from controller.card.engine.making import make_stretch
 from controller.card.engine.speeds import speeds_of
-from controller.card.engine.stretch import Start
-from controller.motion.junctions import Path
+from controller.card.engine.stretch import Start, make_stretch
+from controller.motion.limits import Path
 from controller.motion.planner import RowLimits, plan_rows
 from controller.stepping.chunks import chunk_of
 from controller.stepping.point_by_point import interpolate_words
@@ -97,7 +96,7 @@ def test_entries_pushed_by_the_thousand_are_planned_a_few_times(monkeypatch):
         planned.append(len(limits.length_um))
         return plan_rows(limits, *rest)
 
-    monkeypatch.setattr(making, "plan_rows", counted)
+    monkeypatch.setattr(stretch, "plan_rows", counted)
     watched = Watched(synvel_pulse_ms=10.0)
     card = watched.card
     card.GT_StrtList()
@@ -233,7 +232,7 @@ def test_the_end_of_a_stepped_block_is_where_its_steps_end():
 
 def steps_left(blocks):
     """Steps still to be made; only the first block can be begun."""
-    return len(motion_list.steps_of(blocks)) - blocks[0].done if blocks else 0
+    return len(entries.steps_of(blocks)) - blocks[0].done if blocks else 0
 
 
 def test_a_stretch_cut_at_the_border_of_blocks_keeps_every_step():

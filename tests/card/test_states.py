@@ -12,7 +12,7 @@ from plain import PlainBlock, plain_steps
 from watched import EMPTY, IDLE, Watched
 
 from controller.card.core.settings import Switches
-from controller.card.engine.states import Waiting
+from controller.card.engine.motion import Waiting
 
 PERIOD_S = 200e-6
 AXES = range(1, 5)

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 import pytest
 
 from controller import GECard
-from controller.card.core.codes import CrdSts
+from controller.card.core.call import CrdSts
 from controller.card.core.settings import CardSettings
 
 PLACES = [(500.0 * (k % 7), 300.0 * (k % 5), 100.0 * k) for k in range(1, 61)]

@@ -8,7 +8,7 @@ import pytest
 from controller import GECard
 from controller.card.calls.base import Logged
 from controller.card.core.settings import CardSettings, Switches
-from controller.card.way.way import Way, WayRecorder
+from controller.card.way import Way, WayRecorder
 from controller.stepping.pulses import Pulses
 from parser.geometry.along import places_at
 from parser.geometry.curves import CurveKind

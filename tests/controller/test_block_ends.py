@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from controller.offset.block_ends import JointKind, aside_ends, joint_kinds
+from controller.offset.joints import JointKind, aside_ends, joint_kinds
 from parser.controller_words import Compensation, CompensationRules
 from parser.program import parse_program
 from parser.toolpath import Toolpath

@@ -17,12 +17,12 @@ from paths import Pen
 from plain_compensation import Leg, plain_path
 from sound_shapes import SHAPES, Shape, run_round
 
-from controller.offset.alarms import AlarmKind
-from controller.offset.block_ends import JointKind, joint_kinds
+from controller.offset.chain import OffsetPath, RowOrigin
 from controller.offset.compensate import compensate
+from controller.offset.joints import JointKind, joint_kinds
 from controller.offset.programmed import Compensated, compensated
-from controller.offset.rows import OffsetPath, RowOrigin
-from controller.offset.sections import OffsetSection, Side
+from controller.offset.shifted import OffsetSection, Side
+from controller.offset.stretches import AlarmKind
 from parser.controller_words import CompensationRules
 from parser.geometry.along import places_at
 from parser.geometry.curves import CurveKind, Curves

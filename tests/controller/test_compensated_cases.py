@@ -10,9 +10,9 @@ import pytest
 from compensating import LINUXCNC, TEXTBOOK, To, drawn_mm, moves_mm, told
 from paths import Pen
 
-from controller.offset.alarms import AlarmKind
+from controller.offset.chain import RowOrigin
 from controller.offset.programmed import Compensated, compensated
-from controller.offset.rows import RowOrigin
+from controller.offset.stretches import AlarmKind
 from parser.controller_words import CompensationRules
 
 LEFT, RIGHT = 1, -1

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from paths import Pen
 
-from controller.motion.junctions import Path, path_of
+from controller.motion.limits import Path, path_of
 from controller.motion.plan import EMPTY_PLAN, Plan
 from controller.motion.planner import RowLimits, plan_rows
 from controller.stepping import equal_time

@@ -12,10 +12,9 @@ from paths import Pen, flipped
 from shapely.geometry import Polygon
 from sound_shapes import SHAPES, Shape, placed
 
-from controller.offset.gouges import Gouge, gouges
+from controller.offset.gouges import Gouge, gouges, uncut_um
 from controller.offset.reach import reach
-from controller.offset.sections import Side
-from controller.offset.uncut import uncut_um
+from controller.offset.shifted import Side
 from parser.geometry.along import places_at
 from parser.geometry.curves import Curves, Floats
 from parser.geometry.distance import distance_to_curves

@@ -15,12 +15,20 @@ from controller.card.core.settings import CardSettings
 from controller.card.ge import GECard
 from controller.host.entries import Drive, Interpolation, entries_of
 from controller.host.host import Host
-from controller.motion.junctions import JunctionDeviation, SlowAt, StopEach, Through, path_of
-from controller.motion.limits import Feeds, MotionLimits, row_limits
+from controller.motion.limits import (
+    Feeds,
+    JunctionDeviation,
+    MotionLimits,
+    SlowAt,
+    StopEach,
+    Through,
+    path_of,
+    row_limits,
+)
 from controller.motion.planner import plan_rows
 from controller.stepping.interpolators import EqualTime, PointByPoint
+from controller.stepping.point_by_point import interpolate
 from controller.stepping.pulses import Pulses
-from controller.stepping.words import interpolate
 from parser.program import load_program, parse_program
 from parser.toolpath import Toolpath
 

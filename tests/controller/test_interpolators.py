@@ -13,15 +13,15 @@ from hypothesis import strategies as st
 from plain import PlainBlock, plain_steps
 from strategies import program_text, programs
 
-from controller.motion.junctions import path_of
+from controller.motion.limits import path_of
 from controller.motion.plan import EMPTY_PLAN, Plan
 from controller.motion.planner import RowLimits, plan_rows
 from controller.stepping import chunks
 from controller.stepping.chunks import StepChunk, chunk_of
 from controller.stepping.interpolators import EqualTime, Interpolator, PointByPoint
+from controller.stepping.point_by_point import interpolate
 from controller.stepping.pulses import Pulses, joined, no_pulses
 from controller.stepping.steps import Steps
-from controller.stepping.words import interpolate
 from parser.program import parse_program
 from parser.toolpath import Toolpath
 

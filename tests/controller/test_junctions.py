@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from paths import Pen
 
-from controller.motion.junctions import (
+from controller.motion.limits import (
     CornerTime,
     Junction,
     JunctionDeviation,

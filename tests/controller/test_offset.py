@@ -16,11 +16,11 @@ from hypothesis import strategies as st
 from paths import Pen, flipped
 from sound_shapes import SHAPES, Shape, run_round
 
+from controller.offset.chain import OffsetPath, RowOrigin, offset_toolpath
 from controller.offset.compensate import compensate
 from controller.offset.passes import PassedPath, in_passes
-from controller.offset.rows import OffsetPath, RowOrigin, offset_toolpath
-from controller.offset.sections import OffsetSection, Side
-from controller.stepping.words import interpolate
+from controller.offset.shifted import OffsetSection, Side
+from controller.stepping.point_by_point import interpolate
 from parser.geometry.curves import CurveKind, Curves, Floats, Ints, curves_between, joined
 from parser.geometry.distance import distance_to_curves
 from parser.toolpath import Stop, Toolpath

@@ -7,7 +7,7 @@ import pytest
 from paths import Pen
 from random_motion import random_toolpath
 
-from controller.motion.junctions import path_of
+from controller.motion.limits import path_of
 
 SHARES = (0.0, 0.3, 1.0)
 

@@ -10,8 +10,19 @@ from paths import Pen
 from plans import plan_toolpath
 from random_motion import random_feeds, random_limits, random_toolpath
 
-from controller.motion.junctions import CornerTime, Junction, JunctionDeviation, SlowAt, StopEach, Through, path_of
-from controller.motion.limits import Feeds, MotionLimits, row_limits, run_starts
+from controller.motion.limits import (
+    CornerTime,
+    Feeds,
+    Junction,
+    JunctionDeviation,
+    MotionLimits,
+    SlowAt,
+    StopEach,
+    Through,
+    path_of,
+    row_limits,
+    run_starts,
+)
 from controller.motion.plan import EMPTY_PLAN, Plan
 from parser.geometry.curves import Floats
 from parser.program import parse_program

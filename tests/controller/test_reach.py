@@ -18,7 +18,7 @@ from shapely.geometry.base import BaseGeometry
 from sound_shapes import SHAPES, Shape, begun_within, placed
 
 from controller.offset.reach import OffsetLoop, Reached, reach
-from controller.offset.sections import Side
+from controller.offset.shifted import Side
 from parser.geometry.along import directions, places_at
 from parser.geometry.curves import Curves, Floats, joined
 from parser.geometry.distance import distance_to_curves

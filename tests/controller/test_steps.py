@@ -12,9 +12,9 @@ from plain import PlainBlock, plain_steps
 from strategies import arcs, blocks, lines, program_text, programs
 
 from controller.stepping.chunks import chunk_of
+from controller.stepping.point_by_point import interpolate
 from controller.stepping.steps import Steps
 from controller.stepping.strokes import ceil_sqrt
-from controller.stepping.words import interpolate
 from parser.program import parse_program, read_program
 
 

@@ -11,7 +11,12 @@ from pathlib import Path
 import pytest
 from places import ROOT
 
-from controller.card.core.codes import LATCHED, AxisSts, Code, CrdSts
+from controller.card.core.call import (
+    LATCHED,
+    AxisSts,
+    Code,
+    CrdSts,
+)
 from controller.card.core.settings import CardSettings
 
 PAGE = (ROOT / "docs" / "card.md").read_text(encoding="utf-8")

@@ -7,7 +7,7 @@ from places import ROOT
 
 from controller.decode.blocks import decoded
 from controller.decode.document import block_entry
-from controller.offset.block_ends import JointKind
+from controller.offset.joints import JointKind
 from parser.dialect.reader import Choices
 from parser.program import parse_program
 

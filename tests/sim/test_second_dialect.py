@@ -16,8 +16,8 @@ from report_schema import validator
 from runs import codes, plain_scenario, run_text
 from tiny_dialect import TinyReader
 
-from controller.offset.sections import Side
-from controller.stepping.words import interpolate
+from controller.offset.shifted import Side
+from controller.stepping.point_by_point import interpolate
 from parser import program as door
 from parser.findings.errors import FileUnreadableError, ProgramError, SettingsError
 from parser.program import load_program, parse_program

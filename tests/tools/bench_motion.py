@@ -13,11 +13,10 @@ from plain import PlainBlock, plain_steps
 from controller.card.core.settings import CardSettings
 from controller.host.entries import Drive, Interpolation
 from controller.host.host import Host
-from controller.motion.junctions import JunctionDeviation
-from controller.motion.limits import Feeds, MotionLimits, row_limits
+from controller.motion.limits import Feeds, JunctionDeviation, MotionLimits, row_limits
 from controller.motion.planner import plan_rows
 from controller.stepping.interpolators import PointByPoint
-from controller.stepping.words import interpolate
+from controller.stepping.point_by_point import interpolate
 from parser.program import read_program
 
 FEEDS = Feeds(cut_um_s=43.75, jump_um_s=500.0)

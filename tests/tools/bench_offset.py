@@ -17,7 +17,7 @@ from controller.offset.compensate import compensate
 from controller.offset.gouges import gouges
 from controller.offset.programmed import compensated
 from controller.offset.reach import reach
-from controller.offset.sections import OffsetSection, Side
+from controller.offset.shifted import OffsetSection, Side
 from parser.geometry.along import places_at
 from parser.geometry.curves import Curves, Floats, curves_between
 from parser.geometry.near import nearest_um

@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 from plain_planner import plain_duration
 
-from controller.motion.junctions import Path
-from controller.motion.limits import MotionLimits
+from controller.motion.limits import MotionLimits, Path
 from controller.motion.plan import Plan
 from controller.motion.planner import RowLimits
 from parser.geometry.curves import Floats, Ints

@@ -5,8 +5,16 @@ import math
 import numpy as np
 from paths import Pen
 
-from controller.motion.junctions import CornerTime, Junction, JunctionDeviation, SlowAt, StopEach, Through
-from controller.motion.limits import Feeds, MotionLimits
+from controller.motion.limits import (
+    CornerTime,
+    Feeds,
+    Junction,
+    JunctionDeviation,
+    MotionLimits,
+    SlowAt,
+    StopEach,
+    Through,
+)
 from controller.motion.planner import RowLimits
 from parser.geometry.curves import Floats
 from parser.toolpath import Toolpath

@@ -9,7 +9,7 @@ from functools import cache
 from replayed import recording_of
 from rough_and_trim import RoughAndTrim, rough_and_trim
 
-from controller.offset.sections import Side
+from controller.offset.shifted import Side
 from sim.run.recording import Recording
 from sim.setup.part import Offset, OffsetPass
 

@@ -8,13 +8,12 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, TextIO
 
-from controller.card.abi.clocks import Clock, SimulatedClock, WallClock
-from controller.card.abi.environment import CardEnvironment
+from controller.card.abi.environment import CardEnvironment, Clock, SimulatedClock, WallClock
 from controller.card.abi.table import Prototype, prototypes
 from controller.card.abi.turns import Passed, Tasks, Turns
 from controller.card.core.settings import CardSettings
 from controller.card.ge import GECard
-from controller.card.log.writer import CardLog
+from controller.card.log import CardLog
 from parser.findings.errors import FileUnreadableError, system_message
 from parser.text.encoding import printable
 

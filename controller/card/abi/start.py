@@ -4,8 +4,8 @@ import os
 from collections.abc import Callable
 from typing import Any
 
-from controller.card.abi.c_text import digest
 from controller.card.abi.environment import card_environment
+from controller.card.abi.table import digest
 from controller.card.abi.turns import Tasks, all_tasks
 from parser.findings.errors import SettingsError
 

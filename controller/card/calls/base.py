@@ -8,8 +8,7 @@ from collections.abc import Callable, Iterator
 from threading import RLock
 from typing import Any, NamedTuple, TypeAlias
 
-from controller.card.core.call import Function, read_arguments
-from controller.card.core.codes import Code, Refused
+from controller.card.core.call import Code, Function, Refused, read_arguments
 from controller.card.core.settings import CardSettings
 from controller.card.core.state import AxisState, CardState
 from controller.card.engine.engine import Engine

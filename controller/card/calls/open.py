@@ -1,8 +1,7 @@
 """Functions that open, close and reset the card, select one of several, and tell versions."""
 
 from controller.card.calls.base import CardBase
-from controller.card.core.call import ULong, UShort, gt
-from controller.card.core.codes import Code, Refused
+from controller.card.core.call import Code, Refused, ULong, UShort, gt
 
 LIBRARY_VERSION = 0x0100
 """What the version functions answer; grade C."""

@@ -12,9 +12,8 @@ full list; with 2 to 7 what is wrong with the path (`shapes`).
 import math
 
 from controller.card.calls.base import CardBase
-from controller.card.core.call import Double, Long, Short, gt
-from controller.card.core.codes import Code, Refused
-from controller.card.core.units import UM_S2_PER_PULSE_MS2, UM_S_PER_PULSE_MS
+from controller.card.core.call import Code, Double, Long, Refused, Short, gt
+from controller.card.core.settings import UM_S2_PER_PULSE_MS2, UM_S_PER_PULSE_MS
 from controller.card.engine.entries import (
     NO_LENGTH,
     XY,

@@ -1,4 +1,6 @@
-"""Settings of the emulated card: all that no header or program tells (grade C), each with a default that says so.
+"""Units of the card's calls in those of the inside; one pulse is 1 µm, and the card counts in ms (grade A).
+
+Settings of the emulated card: all that no header or program tells (grade C), each with a default that says so.
 
 How a switch is wired, and what the card takes its level for.
 
@@ -10,6 +12,11 @@ three programs for the card send the word, one checks the levels at rest after i
 import math
 from dataclasses import dataclass, field
 from typing import Any, Final, Literal, TypeAlias, get_args
+
+UM_S_PER_PULSE_MS = 1e3
+UM_S2_PER_PULSE_MS2 = 1e6
+UM_S3_PER_PULSE_MS3 = 1e9
+
 
 Wiring: TypeAlias = Literal["as-sensed", "normally-open", "normally-closed"]
 """``as-sensed`` is the one that the program's sense word is right for, whatever that says."""

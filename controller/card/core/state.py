@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
-from controller.card.core.codes import AxisSts
+from controller.card.core.call import AxisSts
 from controller.card.core.settings import AXES
 
 

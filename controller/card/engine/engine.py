@@ -20,17 +20,20 @@ next one begins or the list is started.
 
 from collections.abc import Callable
 
-from controller.card.core.codes import LIST_FULL, Code, CrdSts, Refused
+from controller.card.core.call import (
+    LIST_FULL,
+    Code,
+    CrdSts,
+    Refused,
+)
 from controller.card.core.settings import CardSettings
 from controller.card.core.state import CardState
-from controller.card.engine.entries import NO_NUMBER, Entry, Place, Segment
-from controller.card.engine.motion import CardMotion, Driven
-from controller.card.engine.motion_list import MotionList
-from controller.card.engine.sequencer import Sequencer
-from controller.card.engine.speeds import speeds_of
-from controller.card.engine.states import (
+from controller.card.engine.entries import NO_NUMBER, Entry, MotionList, Place, Segment
+from controller.card.engine.motion import (
     BrokenList,
     BrokenMove,
+    CardMotion,
+    Driven,
     Move,
     Moving,
     Running,
@@ -39,6 +42,8 @@ from controller.card.engine.states import (
     without_list,
     without_move,
 )
+from controller.card.engine.sequencer import Sequencer
+from controller.card.engine.speeds import speeds_of
 from controller.stepping.pulses import Pulses
 
 

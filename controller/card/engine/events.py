@@ -16,12 +16,12 @@ from typing import NamedTuple, TypeVar
 
 import numpy as np
 
-from controller.card.core.codes import AxisSts
+from controller.card.core.call import AxisSts
 from controller.card.core.settings import CardSettings, Switches, is_taken_for_met, sense_of
 from controller.card.core.state import AxisState, CardState
 from controller.card.engine.entries import Entry, Output, Stepping
 from controller.card.engine.stretch import Stretch
-from controller.motion.junctions import Path
+from controller.motion.limits import Path
 from parser.geometry.curves import Floats
 
 _TURN = 2.0 * math.pi

@@ -8,17 +8,14 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
-from controller.card.core.codes import AxisSts
+from controller.card.core.call import AxisSts
 from controller.card.core.settings import CardSettings
 from controller.card.core.state import CardState, LimitMet
-from controller.card.engine.entries import Entry, PathEntry
+from controller.card.engine.entries import Entry, MotionList, PathEntry
 from controller.card.engine.events import Capture, Events, Trip, events_of, grows_s, take_due
-from controller.card.engine.making import make_stretch
-from controller.card.engine.motion import CardMotion
-from controller.card.engine.motion_list import MotionList
-from controller.card.engine.speeds import Speeds
-from controller.card.engine.states import (
+from controller.card.engine.motion import (
     Braking,
+    CardMotion,
     ListRun,
     Moving,
     Running,
@@ -29,7 +26,8 @@ from controller.card.engine.states import (
     list_stretch,
     stopped,
 )
-from controller.card.engine.stretch import Start
+from controller.card.engine.speeds import Speeds
+from controller.card.engine.stretch import Start, make_stretch
 
 
 class Sequencer:

@@ -2,10 +2,9 @@
 
 from dataclasses import dataclass, fields
 
-from controller.card.core.codes import Code, Refused
-from controller.card.core.settings import SPEEDS, CardSettings
+from controller.card.core.call import Code, Refused
+from controller.card.core.settings import SPEEDS, UM_S2_PER_PULSE_MS2, UM_S_PER_PULSE_MS, CardSettings
 from controller.card.core.state import CardState
-from controller.card.core.units import UM_S2_PER_PULSE_MS2, UM_S_PER_PULSE_MS
 from controller.card.engine.entries import Pace
 
 _SLOWEST_UM_S = SPEEDS[0] * UM_S_PER_PULSE_MS

@@ -9,10 +9,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from controller.offset.chain import OffsetPath, offset_toolpath
 from controller.offset.passes import PassedPath, PassedRound
 from controller.offset.programmed import compensated
-from controller.offset.rows import OffsetPath, offset_toolpath
-from controller.offset.sections import Side
+from controller.offset.shifted import Side
 from parser.controller_words import Compensation
 from parser.findings.findings import file_order
 from parser.geometry.curves import Bools, Floats, Ints

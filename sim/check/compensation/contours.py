@@ -8,13 +8,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from controller.offset.alarms import Alarm, AlarmKind
-from controller.offset.gouges import TOLERANCE_UM, Gouge, approaches
+from controller.offset.chain import OffsetPath, RowOrigin
+from controller.offset.gouges import TOLERANCE_UM, Gouge, approaches, uncut_um
 from controller.offset.reach import reach
-from controller.offset.rows import OffsetPath, RowOrigin
-from controller.offset.sections import OffsetSection, Side
-from controller.offset.shifted import NOTHING_UM
-from controller.offset.uncut import uncut_um
+from controller.offset.shifted import NOTHING_UM, OffsetSection, Side
+from controller.offset.stretches import Alarm, AlarmKind
 from parser.dialect.reader import at_block
 from parser.findings.findings import Finding
 from parser.geometry.along import along_um

@@ -13,8 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from controller.offset.sections import OffsetSection, Round, Side
-from controller.offset.shifted import closed_contour
+from controller.offset.shifted import OffsetSection, Round, Side, closed_contour
 from controller.offset.stretches import known_sides
 from parser.controller_words import Compensation
 from parser.geometry.along import along_um, headings_along, places, places_at

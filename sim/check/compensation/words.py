@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from controller.offset.alarms import Alarm, AlarmKind
+from controller.offset.stretches import Alarm, AlarmKind
 from parser.controller_words import Compensation
 from parser.dialect.reader import at_block
 from parser.findings.codes import Severity

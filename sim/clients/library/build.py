@@ -5,7 +5,13 @@ from pathlib import Path
 from typing import Final
 
 import controller
-from controller.card.abi.c_text import HEADERS, C, digest, header, source
+from controller.card.abi.table import (
+    HEADERS,
+    C,
+    digest,
+    header,
+    source,
+)
 from sim.base.files import scratch, staged
 from sim.clients.library.compiler import Compiler
 

@@ -2,7 +2,7 @@
 
 from typing import Literal, NamedTuple
 
-from controller.offset.sections import Side
+from controller.offset.shifted import Side
 from parser.drawing.model import Drawing, LeftOut
 from parser.findings.catalogue import Remark
 from parser.geometry.curves import Curves, Ints

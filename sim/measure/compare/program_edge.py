@@ -14,7 +14,7 @@ import shapely
 from shapely.geometry.polygon import orient
 
 from controller.offset.reach import reach
-from controller.offset.sections import Side
+from controller.offset.shifted import Side
 from parser.findings.catalogue import Remark
 from parser.geometry.along import deepest, headings_at, places
 from parser.geometry.curves import Bools, Curves, Floats, Ints, curves_between, joined

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from controller.offset.reach import OffsetLoop, reach
-from controller.offset.sections import Side
+from controller.offset.shifted import Side
 from parser.drawing.model import SAME_WITHIN_UM, Drawing, running
 from parser.geometry.along import along_um, directions, headings_along, places, places_at
 from parser.geometry.curves import Curves, Floats, Ints, curves_between, joined

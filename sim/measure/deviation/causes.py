@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from controller.motion.junctions import Path, path_of
+from controller.motion.limits import Path, path_of
 from controller.motion.plan import Plan
 from controller.stepping.pulses import Pulses
 from controller.stepping.steps import Steps

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from controller.compiled.loops import compiled
 from controller.host.entries import Drive
-from controller.motion.junctions import path_of
+from controller.motion.limits import path_of
 from controller.stepping.equal_time import chord_error_um
 from controller.stepping.pulses import Pulses
 from parser.geometry.curves import Bools, Floats, Ints

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from controller.offset.rows import RowOrigin
+from controller.offset.chain import RowOrigin
 from parser.geometry.curves import CurveKind, Ints
 from sim.base.rounded import DEG_DIGITS, column, moment, points, rounded, rows
 from sim.check.pass_over_round import Offsetting

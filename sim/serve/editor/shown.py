@@ -13,7 +13,7 @@ from typing import Final
 import numpy as np
 from lsprotocol.types import DocumentSymbol, Hover, MarkupContent, MarkupKind, Position, SymbolKind
 
-from controller.stepping.words import interpolate
+from controller.stepping.point_by_point import interpolate
 from parser.findings.errors import ProgramError
 from parser.findings.findings import Edit, edited
 from parser.program import Program, load_program

@@ -7,7 +7,7 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 
 from controller.motion.limits import Feeds
-from controller.stepping.words import interpolate
+from controller.stepping.point_by_point import interpolate
 from parser.findings.catalogue import LANGUAGES, Bilingual, page, texts
 from parser.findings.findings import Finding
 from parser.program import Program, usual_name

@@ -4,11 +4,16 @@ import math
 from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple, get_args
 
-from controller.card.core.settings import CardSettings
-from controller.card.core.units import UM_S3_PER_PULSE_MS3
+from controller.card.core.settings import UM_S3_PER_PULSE_MS3, CardSettings
 from controller.host.entries import Interpolation
-from controller.motion.junctions import Junction, JunctionDeviation, SlowAt, StopEach, Through
-from controller.motion.limits import MotionLimits
+from controller.motion.limits import (
+    Junction,
+    JunctionDeviation,
+    MotionLimits,
+    SlowAt,
+    StopEach,
+    Through,
+)
 from parser.dialect.reader import Registers
 from parser.findings.errors import Message, SettingsError
 from sim.setup.dialect import REGISTERS

@@ -19,7 +19,7 @@ import shapely
 
 from controller.decode.blocks import Decoded, decoded
 from controller.motion.plan import Plan
-from controller.stepping.words import words_of
+from controller.stepping.point_by_point import words_of
 from parser import __version__
 from parser.controller_words import Axis, StepWords
 from parser.findings.catalogue import Language, texts

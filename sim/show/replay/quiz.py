@@ -9,8 +9,8 @@ from typing import Final, get_args
 
 import numpy as np
 
+from controller.stepping.point_by_point import words_of
 from controller.stepping.pulses import Pulses
-from controller.stepping.words import words_of
 from parser.controller_words import StepWords
 from parser.text.source import Field
 from sim.run.dryrun import DryRun

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterator
 
-from controller.card.log.lines import LONGEST_S
+from controller.card.log import LONGEST_S
 from parser.findings.catalogue import Language
 from parser.text.encoding import printable
 from parser.units import mm

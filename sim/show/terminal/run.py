@@ -7,7 +7,7 @@ import math
 from collections import Counter
 from pathlib import Path
 
-from controller.offset.rows import RowOrigin
+from controller.offset.chain import RowOrigin
 from parser.findings.catalogue import Language, length, remark_text
 from parser.findings.findings import ReadAs
 from parser.shape.contours import Contour

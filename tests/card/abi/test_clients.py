@@ -8,8 +8,7 @@ import pytest
 from c_library import CLIENTS, Made, Ran
 from places import ROOT
 
-from controller.card.log.lines import call_of
-from controller.card.log.replay import Replay
+from controller.card.log import Replay, call_of
 
 LIMITS = "[[switches]]\nnegative = -40000\n[[switches]]\nnegative = -60000\n"
 HOMES = "[[switches]]\nnegative = -90000\npositive = 90000\nhome = [-60000, -40000]\nindex_every = 2000\n"

@@ -9,7 +9,7 @@ from c_library import Made
 from controller import GECard
 from controller.card.abi.table import Parameter, Prototype, prototypes
 from controller.card.core.settings import CardSettings
-from controller.card.lookahead.data import TLookAheadMsg, TLookData
+from controller.card.lookahead import TLookAheadMsg, TLookData
 
 BLOCK: Final = TLookData(1, 17, 0.0, 10.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0, 1, 0)
 C_TYPES: Final = {"h": "short", "H": "unsigned short", "l": "long", "L": "unsigned long", "d": "double"}

@@ -14,8 +14,7 @@ import pytest
 from places import ROOT, SCENARIOS
 
 from controller.compiled.loops import compiled
-from controller.compiled.machine_code import MachineCode, Shape
-from controller.compiled.store import store, stored
+from controller.compiled.machine_code import MachineCode, Shape, store, stored
 from parser.geometry.curves import Floats
 from sim.cli.compile import LOOPS, compile_loops
 from sim.measure.curve_rows import away_from

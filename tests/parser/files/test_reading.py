@@ -29,13 +29,13 @@ SHIPPED = {
     *("controller/compiled/loops.py", "sim/base/workers/makers.py"),  # our own modules
     "sim/check/own_checks.py",  # which distributions offer checks
     "sim/serve/page/shortcut.py",  # its icon
-    *("controller/card/abi/c_text.py", "sim/clients/library/build.py"),  # C that libraries are made of
+    *("controller/card/abi/table.py", "sim/clients/library/build.py"),  # C that libraries are made of
 }
 """Modules that read files which drycut brings along, or its own documents."""
 OWN = {
     *("sim/base/files/swap.py", "sim/base/files/stages.py", "sim/base/files/steps.py", "sim/run/recording.py"),
     *("sim/jobs/batch.py", "sim/jobs/task.py", "sim/jobs/trace_file.py"),
-    "controller/compiled/store.py",  # machine code, sealed
+    "controller/compiled/machine_code.py",  # machine code, sealed
     "sim/show/terminal/streams.py",  # reopens closed streams on nothing
     *("sim/cli/lsp.py", "sim/serve/page/child.py"),  # hand a protocol, or a process of ours, its streams
     *(

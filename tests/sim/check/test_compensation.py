@@ -10,7 +10,7 @@ from compensated_iso import DIE, Place, around, die, head, lines, program
 from compensating import LINUXCNC, TEXTBOOK
 
 from controller.offset.reach import reach
-from controller.offset.sections import Side
+from controller.offset.shifted import Side
 from parser.controller_words import CompensationRules
 from parser.dialect.reader import Choices
 from parser.findings.catalogue import LANGUAGES, texts

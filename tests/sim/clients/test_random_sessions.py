@@ -9,7 +9,7 @@ import pytest
 
 from controller import GECard
 from controller.card.core.settings import CardSettings, Switches
-from controller.card.log.writer import CardLog
+from controller.card.log import CardLog
 from controller.stepping.pulses import Pulses
 from sim.cli.card_client import ClientOptions, scenario_of
 from sim.clients.run import Read, read_again, run_client

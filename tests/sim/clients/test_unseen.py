@@ -9,8 +9,7 @@ import pytest
 
 from controller import GECard
 from controller.card.core.settings import CardSettings, Switches
-from controller.card.log.lines import CardLogError
-from controller.card.log.writer import CardLog
+from controller.card.log import CardLog, CardLogError
 from sim.clients.run import Read, read_again
 from sim.clients.session import session_of
 from sim.clients.unseen import unseen_of

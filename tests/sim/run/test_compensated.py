@@ -8,8 +8,8 @@ from compensated_iso import DIE, around, die, head, program
 from report_schema import complaints
 from runs import codes, lawful, plain_scenario, scenario_run
 
-from controller.offset.rows import RowOrigin
-from controller.offset.sections import Side
+from controller.offset.chain import RowOrigin
+from controller.offset.shifted import Side
 from parser.dialect.reader import Choices
 from parser.findings.catalogue import texts
 from parser.findings.codes import Severity

@@ -18,7 +18,7 @@ from runs import codes, plain_scenario, run_text
 
 from controller.motion.limits import row_limits
 from controller.motion.planner import plan_rows
-from controller.offset.sections import Side
+from controller.offset.shifted import Side
 from parser.findings.catalogue import texts
 from parser.findings.errors import ProgramError
 from parser.findings.findings import Finding

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from runs import codes, machine, run_text, scenario_run
 
-from controller.card.log.writer import CardLog
+from controller.card.log import CardLog
 from parser.controller_words import Axis
 from parser.program import parse_program
 from sim.run.dryrun import DryRun

@@ -9,8 +9,8 @@ from places import SCENARIOS
 from report_schema import complaints
 from runs import codes, run_text, scenario_run
 
-from controller.offset.rows import RowOrigin
-from controller.offset.sections import OffsetSection, Side, rounds_of
+from controller.offset.chain import RowOrigin
+from controller.offset.shifted import OffsetSection, Side, rounds_of
 from parser.program import parse_program
 from parser.toolpath import Toolpath
 from sim.run.offsetting import offsetting

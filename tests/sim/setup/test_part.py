@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from controller.offset.sections import Side
+from controller.offset.shifted import Side
 from parser.findings.errors import SettingsError
 from sim.cli.lengths import Lengths
 from sim.cli.overrides import Overrides, overridden

@@ -16,9 +16,9 @@ from replayed import recording_of
 from runs import plain_scenario, scenario_recording
 from strategies import blocks, program_text
 
-from controller.offset.sections import Side
+from controller.offset.shifted import Side
+from controller.stepping.point_by_point import words_of
 from controller.stepping.pulses import Pulses
-from controller.stepping.words import words_of
 from parser.findings.catalogue import Bilingual
 from parser.findings.errors import SettingsError
 from parser.program import parse_program, read_program

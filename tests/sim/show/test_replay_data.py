@@ -22,8 +22,8 @@ from runs import scenario_recording
 from strategies import program_text
 
 from controller.stepping.chunks import chunk_of
+from controller.stepping.point_by_point import interpolate
 from controller.stepping.pulses import Pulses
-from controller.stepping.words import interpolate
 from parser.geometry.curves import Floats
 from parser.program import parse_program
 from parser.toolpath import Point
@@ -567,7 +567,7 @@ def test_the_page_names_every_key_of_the_document() -> None:
 
 def test_an_offset_path_is_replayed_with_the_blocks_it_comes_from() -> None:
     text = "B0B2000B2000GYL2 B2000B0B2000GXL1 B0B2000B2000GYL4 B2000B0B2000GXL3 DD"
-    from controller.offset.sections import Side
+    from controller.offset.shifted import Side
     from sim.setup.part import Offset, OffsetPass
 
     recording = recording_of(text, offset=Offset((OffsetPass(100.0),), Side.LEFT))

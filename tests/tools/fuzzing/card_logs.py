@@ -10,8 +10,7 @@ from typing import Any
 
 from controller import GECard
 from controller.card.core.settings import CardSettings, Switches
-from controller.card.log.replay import OWN
-from controller.card.log.writer import CardLog
+from controller.card.log import OWN, CardLog
 from fuzzing.mutate import TEXTS, damaged, edited, number_text
 from fuzzing.ran import answer_of, broken_by, ran
 from fuzzing.target import Input, Judged

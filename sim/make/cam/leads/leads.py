@@ -11,7 +11,7 @@ import math
 
 import numpy as np
 
-from controller.offset.rows import lines_between
+from controller.offset.chain import lines_between
 from parser.drawing.model import running
 from parser.geometry.along import directions, to_left
 from parser.geometry.curves import Curves, Floats, curves_between, joined

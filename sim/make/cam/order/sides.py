@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from controller.offset.sections import Side
+from controller.offset.shifted import Side
 from sim.make.cam.model import CannotCutError, Figure, Refusal
 from sim.setup.making import Making, SideWish
 

@@ -9,7 +9,7 @@ from typing import Final, NamedTuple
 import numpy as np
 import shapely
 
-from controller.offset.rows import lines_between
+from controller.offset.chain import lines_between
 from parser.geometry.along import along_um
 from parser.geometry.curves import Bools, Floats, Ints
 from parser.geometry.distance import feet

@@ -5,7 +5,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from controller.offset.rows import lines_between
+from controller.offset.chain import lines_between
 from parser.geometry.curves import Bools, Floats, Ints, extents, is_inside
 from parser.geometry.distance import distance_to_curves
 from parser.geometry.near import near_places

@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 
 from controller.offset.reach import OffsetLoop, reach
-from controller.offset.sections import Side
+from controller.offset.shifted import Side
 from parser.geometry.along import along_um, directions, places, places_at
 from parser.geometry.curves import Curves, Floats, Ints, total_before
 from parser.toolpath import Point

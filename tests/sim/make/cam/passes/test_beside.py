@@ -8,7 +8,7 @@ import shapely
 from cam_contours import circle, contour, figure, fitted_ellipse, flat, grown, region, rounded, star
 
 from controller.offset.reach import reach
-from controller.offset.sections import Side
+from controller.offset.shifted import Side
 from parser.geometry.curves import Curves
 from sim.make.cam.model import CannotCutError
 from sim.make.cam.passes.offset_path.convex import beside_convex

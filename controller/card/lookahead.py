@@ -1,4 +1,10 @@
-"""Look-ahead of the host: the library keeps blocks ahead of the list and tells how fast each of them may end.
+"""Look-ahead as the card's library has it: blocks are kept back until the speed at their end is known.
+
+A `HostBlock` goes in and comes out `OldestBlock`, with its speeds; `Mode` is how a card's look-ahead stands.
+
+Structures of the look-ahead functions, and G-code blocks made into segments.
+
+Look-ahead of the host: the library keeps blocks ahead of the list and tells how fast each of them may end.
 
 What its numbers mean is grade C: at a corner the velocity may change by ``amax T`` (`CornerTime`), an arc may bend it
 with `amax`, along the path it changes with `am`; the last block known ends at rest. Blocks are told in order, and what
@@ -11,14 +17,103 @@ The look-ahead mode of one card: off, or on. Blocks are kept back while it is on
 
 from collections import deque
 from dataclasses import dataclass
-from typing import NamedTuple, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
-from controller.card.engine.entries import ORIGIN, Entry, Output, Pace, Place, Segment, Wait
-from controller.card.engine.making import path_of_segments
-from controller.motion.junctions import CornerTime, junction_speeds
+from controller.card.core.call import Char, Code, Double, Long, Reader, Refused, Short, read_arguments
+from controller.card.core.settings import UM_S_PER_PULSE_MS
+from controller.card.engine.entries import (
+    ORIGIN,
+    XY,
+    YZ,
+    ZX,
+    Entry,
+    Output,
+    Pace,
+    Place,
+    Segment,
+    Wait,
+    arc_by_radius,
+    arc_to,
+    checked_line,
+    four,
+)
+from controller.card.engine.speeds import checked
+from controller.card.engine.stretch import path_of_segments
+from controller.motion.limits import CornerTime, junction_speeds
 from controller.motion.planner import RowLimits, border_speeds_sq
+
+_PLANES = {17: XY, 18: ZX, 19: YZ}
+"""Planes by their G-code."""
+RAPID, LINE, CLOCKWISE, COUNTER_CLOCKWISE = range(4)
+
+
+class TLookAheadMsg(NamedTuple):
+    """What a path call through the look-ahead tells of an error; all 0 where there is none.
+
+    Its fields are graded A, as the vendor's header explains them; which block they tell of is graded C.
+
+    Attributes
+    ----------
+    mtnNum
+        `CodeNum` of the block in which the error occurred.
+    num
+        Blocks before it that were not sent to the list; 32767 stands for more, too.
+    error
+        Why: the code that the call returns.
+    """
+
+    mtnNum: int = 0  # noqa: N815 - the library's name
+    num: int = 0
+    error: int = 0
+
+
+class TLookData(NamedTuple):
+    """A block for `GT_AddLookDataEx`; fields as the parameters of `GT_AddLookData`."""
+
+    Code: Char
+    PlaneGroup: Char
+    r: Double
+    x: Double
+    y: Double
+    z: Double
+    F: Double
+    cx: Double
+    cy: Double
+    i: Short
+    n: Long
+    flag: Short
+
+
+def checked_data(given: Any) -> TLookData:
+    """Refused with 7 where it is no block, or a field does not fit its C type."""
+    if not isinstance(given, tuple) or len(given) != len(TLookData._fields):
+        raise Refused(Code.PARAMETER)
+    return TLookData(*read_arguments(_READERS, given))
+
+
+_READERS: list[Reader] = [hint.__metadata__[0].reader for hint in TLookData.__annotations__.values()]
+
+
+def segment_of(data: TLookData, start: Place, pulses_per_unit: float) -> Segment:
+    """The path of a block: by its radius, or about its centre where the radius is 0.
+
+    Refused with 7 where code or plane is none, with 4 where the feed is none, and as path calls are.
+    """
+    plane = _PLANES.get(data.PlaneGroup)
+    if plane is None or data.Code not in range(4):
+        raise Refused(Code.PARAMETER)
+    pace = Pace(checked(data.F) * UM_S_PER_PULSE_MS, 0.0, data.Code == RAPID)
+    place = four((*(pulses_per_unit * value for value in (data.x, data.y, data.z)), 0.0))
+    if data.Code in {RAPID, LINE}:
+        return checked_line(0, pace, start, place)
+    sense = 1 if data.Code == COUNTER_CLOCKWISE else -1
+    end = (place[plane[0]], place[plane[1]])
+    if data.r:
+        return arc_by_radius(0, pace, start, plane, end, data.r * pulses_per_unit, sense)
+    centre = (data.cx * pulses_per_unit, data.cy * pulses_per_unit)
+    return arc_to(0, pace, start, plane, centre, end, sense)
 
 
 class HostRules(NamedTuple):

@@ -1,4 +1,6 @@
-"""The whole way of a card: its stretches, one behind the other, as rows and one plan on the card's clock.
+"""The way that a card drove X and Y along while a program used it: a `Way`.
+
+The whole way of a card: its stretches, one behind the other, as rows and one plan on the card's clock.
 
 One stretch as X and Y see it: the rows that were run, as lines and arcs in the plane, and phases of motion.
 
@@ -13,7 +15,7 @@ from typing import Final, NamedTuple, TypeVar
 import numpy as np
 
 from controller.card.engine.motion import Driven
-from controller.motion.junctions import Path
+from controller.motion.limits import Path
 from controller.motion.plan import EMPTY_PLAN, Plan
 from parser.geometry.curves import Bools, Curves, Floats, Ints, curves_between
 
