@@ -1,6 +1,7 @@
 """The log of a card: written, read, and replayed call by call. A `Logged` call is a line of it.
 
-It holds every call with its time, the coordinate status after it, arguments and answer, as text. The first line names the format, the second holds the settings as JSON, the last how the card ended::
+It holds every call with its time, the coordinate status after it, arguments and answer, as text. The first line names
+the format, the second holds the settings as JSON, the last how the card ended::
 
     drycut card log 1
     settings {"axes": 4, "cards": 1, …}

@@ -23,7 +23,7 @@ from parser.pmac.expressions import (
 )
 from parser.pmac.macros import Expanded, Online, expanded
 from parser.text.encoding import narrow
-from parser.text.places import LineIndex
+from parser.text.lines import LineIndex
 from parser.text.source import Span
 
 _NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)"

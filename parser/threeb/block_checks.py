@@ -12,7 +12,7 @@ from parser.geometry.curves import Ints
 from parser.shape.contours import ends_closed
 from parser.shape.passes import Passes, find_passes
 from parser.step_words.words import label
-from parser.text.places import LineIndex
+from parser.text.lines import LineIndex
 from parser.text.source import Field
 from parser.threeb.decode import decoded_words, is_open_way, placed_marks
 from parser.threeb.reader import RADIUS_TOLERANCE_UM, Mark, Records

@@ -13,7 +13,7 @@ from parser.findings.findings import Finding, PrintedElsewhere, Value
 from parser.geometry.curves import Floats, Ints, total_before
 from parser.shape.contours import corners_at
 from parser.text.encoding import narrow
-from parser.text.places import LineIndex
+from parser.text.lines import LineIndex
 from parser.threeb.header import Header
 from parser.toolpath import Toolpath
 from parser.units import UM_PER_MM

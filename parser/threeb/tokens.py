@@ -16,7 +16,7 @@ import numpy as np
 
 from parser.dialect.reader import STANDARD_MARKS, Marks
 from parser.text.encoding import narrow
-from parser.text.places import LineIndex
+from parser.text.lines import LineIndex
 from parser.text.source import Field, Span
 
 OWN_MARKS = Marks(end=("DD",), pause=("D",))

@@ -16,7 +16,7 @@ from parser.findings.errors import DrycutError, FileUnreadableError, ProgramErro
 from parser.findings.findings import DamagedBlock, Finding, telling
 from parser.program import Program, load_program, none_there
 from parser.text.encoding import decode_text
-from parser.text.places import LineIndex
+from parser.text.lines import LineIndex
 from parser.text.source import Source
 from sim.check.engine import PARSER_CHECKS, PATH_CHECKS, Checked, run_checks
 from sim.check.own_checks import with_own_checks

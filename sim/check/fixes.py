@@ -21,7 +21,7 @@ from parser.findings.findings import (
 from parser.program import Program
 from parser.shape.contours import Contour
 from parser.shape.loops import is_circle
-from parser.text.places import LINE_END
+from parser.text.lines import LINE_END
 from parser.text.source import Field
 from sim.check.blame.cases import MOST_PRINTED
 from sim.check.blame.settle import WrongWord

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from parser.findings.findings import Finding
-from parser.text.places import LineIndex
+from parser.text.lines import LineIndex
 from sim.clients.session import ClientCall, Session
 from sim.clients.unseen import Unseen
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from parser.geometry.curves import Floats, Ints
 from parser.iso.listing.listing import Assignment, Form, Statement
-from parser.text.places import Codes
+from parser.text.lines import Codes
 
 MOST_DIGITS = 15
 """Digits of which every whole number is exact as a float64; numbers of more are left to the other reader."""

@@ -19,7 +19,8 @@ from parser.findings.errors import FileUnreadableError, ProgramError
 from parser.findings.findings import Finding
 from parser.program import Program, load_program
 from parser.text.encoding import printable
-from parser.text.places import LINE_END, place
+from parser.text.lines import LINE_END
+from parser.text.places import place
 from sim.base.files import replace_file, staged
 from sim.check.file_check import Job
 from sim.check.fixes import Choice, choices

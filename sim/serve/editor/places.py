@@ -11,7 +11,7 @@ from lsprotocol.types import Position, PositionEncodingKind, Range
 
 from parser.findings.catalogue import Language
 from parser.findings.findings import Edit
-from parser.text.places import LineIndex
+from parser.text.lines import LineIndex
 from parser.text.source import Span
 from sim.check.file_check import AsTyped
 from sim.check.mended import mended_text

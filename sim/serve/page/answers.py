@@ -14,7 +14,7 @@ from parser.program import Program, usual_name
 from parser.shape.contours import find_contours
 from parser.shape.passes import find_passes, leads_of
 from parser.text.encoding import decode_text, encode_text, printable
-from parser.text.places import LINE_END
+from parser.text.lines import LINE_END
 from sim.base.rounded import numbers, rounded
 from sim.check.file_check import as_typed
 from sim.check.result import CheckResult
