@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from sim.make.convert.convert import Converted, Refused
     from sim.make.convert.convert import converted as convert_program
     from sim.make.convert.wanted import Wanted
-    from sim.measure.compare.compared_program import compare_program
+    from sim.measure.compare.compare import compare_program
     from sim.measure.compare.result import Comparison
     from sim.run.dryrun import DryRun
     from sim.run.findings import verdict
@@ -121,7 +121,7 @@ _HOMES = {
     "__version__": "parser",
     "build_report": "sim.run.report",
     "check_program": "sim.check.file_check",
-    "compare_program": "sim.measure.compare.compared_program",
+    "compare_program": "sim.measure.compare.compare",
     "convert_program": "sim.make.convert.convert:converted",
     "dry_run": "sim.run.running",
     "iso_choices": "parser.write.iso",

@@ -8,7 +8,6 @@ degrees, unless the name of a field says otherwise.
 JSON schemas of documents, made of their models.
 """
 
-import json
 import types
 from collections.abc import Mapping, Sequence
 from typing import (
@@ -182,6 +181,8 @@ def document_schema(document: Document) -> dict[str, Any]:
 
 def schema_text(document: Document) -> str:
     """The schema as a file has it."""
+    import json  # noqa: PLC0415 - a check writes no schema, and is sooner without
+
     return json.dumps(document_schema(document), indent=1, ensure_ascii=False) + "\n"
 
 

@@ -1,4 +1,6 @@
-"""Where machine code stays on disk: an entry each, sealed by its digest.
+"""Machine code of loops: where it stays on disk, how it is loaded, and how it is called.
+
+Where machine code stays on disk: an entry each, sealed by its digest.
 
 An entry that is cut off, damaged or of another machine counts as none; one that cannot be written is done without. So
 no fault of the disk ends a command.

@@ -1,4 +1,6 @@
-"""Limits of motion: what the machine, the feed and the path's form allow in each row and at each border of rows.
+"""Limits of motion: in each row, and at the junction of two rows, by the rule of the controller.
+
+Limits of motion: what the machine, the feed and the path's form allow in each row and at each border of rows.
 
 Junctions: how fast the border between two rows may be passed, by the rule of the controller.
 

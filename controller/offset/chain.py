@@ -1,4 +1,6 @@
-"""Offset blocks joined one to the next; a block without a place between its neighbours is left out.
+"""Offset blocks joined one to the next, and the rows that an offset path has of them.
+
+Offset blocks joined one to the next; a block without a place between its neighbours is left out.
 
 Rows of an offset path: made of joined blocks, and put in their order.
 

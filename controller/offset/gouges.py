@@ -1,4 +1,6 @@
-"""Gouges: where the wire's path comes nearer to a contour than the offset, and so cuts into it.
+"""What an offset path does to the part: gouges that it cuts, and material that it leaves.
+
+Gouges: where the wire's path comes nearer to a contour than the offset, and so cuts into it.
 
 Where a path comes closest to the curves near it, each pair in closed form.
 

@@ -1,4 +1,6 @@
-"""Curves cut wherever they meet: slices between one place and the next.
+"""The true offset: loops on which the wire's centre comes as near to a contour as it can, cut of slices.
+
+Curves cut wherever they meet: slices between one place and the next.
 
 Things that hang together, directly or through others.
 

@@ -1,4 +1,6 @@
-"""What a controller is told of the offset: to which side, and along which blocks of each contour.
+"""Sections of contours that a controller offsets, and their blocks moved aside, each by itself.
+
+What a controller is told of the offset: to which side, and along which blocks of each contour.
 
 Blocks of sections, moved aside each by itself: their ends do not meet yet.
 """

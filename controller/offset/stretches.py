@@ -1,4 +1,6 @@
-"""What stops a controller that compensates, or should be known of how it does: by the row at which it happens.
+"""A program's own compensation: its stretches, from set-up to cancel, and what stops a controller in them.
+
+What stops a controller that compensates, or should be known of how it does: by the row at which it happens.
 
 What a program's own compensation makes of its blocks: stretches, from set-up to cancel, in runs of one offset.
 """

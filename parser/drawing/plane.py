@@ -1,4 +1,6 @@
-"""Forms and splines seen from above, as lines and arcs in µm; the border type is `Flat`.
+"""What a drawing places in space, seen from above: lines and arcs in the plane.
+
+Forms and splines seen from above, as lines and arcs in µm; the border type is `Flat`.
 
 Placed forms and splines to lines and arcs in the plane: circles stay arcs, ellipses and splines become lines.
 

@@ -1,4 +1,6 @@
-"""The family of errors drycut raises for bad input; each is one clear line for a person.
+"""Errors that drycut raises for bad input, and the messages that they hold: a code with its values.
+
+The family of errors drycut raises for bad input; each is one clear line for a person.
 
 Every error doubles as the built-in that a caller without drycut's names would catch.
 

@@ -1,4 +1,6 @@
-"""Findings: what is wrong with a program, as data with a stable code; `parser.findings.catalogue` has their texts.
+"""Findings: what is wrong with a program, as data with a stable code, and the facts that they hand to others.
+
+Findings: what is wrong with a program, as data with a stable code; `parser.findings.catalogue` has their texts.
 
 Facts: what a finding tells the checks and mends that come after it, as types.
 

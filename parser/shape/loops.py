@@ -1,4 +1,6 @@
-"""The closed loop of a contour, behind its lead-in, and which side of it the part lies on.
+"""The closed loops of a contour, behind its lead-in, and which side of them the part lies on.
+
+The closed loop of a contour, behind its lead-in, and which side of it the part lies on.
 
 Loops of contours that close more than one: by their corners, and where these miss, by the places that they pass.
 

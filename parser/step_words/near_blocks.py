@@ -1,4 +1,6 @@
-"""One line and one arc of a path told in the whole µm about it: those that run nearest to what is drawn.
+"""The blocks of a path told in the whole µm about them, and what is looked at of the path before.
+
+One line and one arc of a path told in the whole µm about it: those that run nearest to what is drawn.
 
 Where the steps of an arc end, beside where its words say that it ends.
 

@@ -1,4 +1,6 @@
-"""Records to toolpath: exact geometry of every block at once, chained from end to start.
+"""Records to toolpath: exact geometry of every block at once, start nodes, and lines that run in the air.
+
+Records to toolpath: exact geometry of every block at once, chained from end to start.
 
 "Exact" is what the CAM prints: no steps, the radius unrounded, the count length J deciding where a block ends.
 

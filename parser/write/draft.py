@@ -1,4 +1,6 @@
-"""A draft: what is to be written, whatever the language; from a toolpath, or made by whoever has curves.
+"""A draft: what is to be written, whatever the language, with the curve marks that 4B has for it.
+
+A draft: what is to be written, whatever the language; from a toolpath, or made by whoever has curves.
 
 Rapids as a language says them: 3B has no word for one, and a line is in the air because the wire is out.
 

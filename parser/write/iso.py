@@ -1,4 +1,6 @@
-"""A draft as ISO, in the way of any dialect that has a profile.
+"""A draft as ISO, in the way of any dialect that has a profile, and what may be chosen of that way.
+
+A draft as ISO, in the way of any dialect that has a profile.
 
 The words of compensation in an ISO text: sides, registers and their values, by the rows of a draft.
 

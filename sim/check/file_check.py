@@ -18,14 +18,18 @@ from parser.program import Program, load_program, none_there
 from parser.text.encoding import decode_text
 from parser.text.lines import LineIndex
 from parser.text.source import Source
-from sim.check.engine import PARSER_CHECKS, PATH_CHECKS, Checked, run_checks
 from sim.check.own_checks import with_own_checks
-from sim.check.programmed import Programmed, programmed_of
-from sim.check.result import CheckResult, CheckState, Coverage
+from sim.check.path_checks import (
+    PARSER_CHECKS,
+    PATH_CHECKS,
+    Checked,
+    run_checks,
+)
+from sim.check.result import CheckResult, CheckState, Coverage, Programmed, programmed_of
 from sim.check.settings import CheckSettings
 from sim.check.settings.read import NO_SETTINGS
 from sim.check.settings.search import SettingsSearch
-from sim.check.silence.directives import chosen, sifted, without_known
+from sim.check.silence import chosen, sifted, without_known
 
 if TYPE_CHECKING:  # most checks know no machine
     from sim.setup.machine.machine import Machine

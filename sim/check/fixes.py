@@ -23,11 +23,9 @@ from parser.shape.contours import Contour
 from parser.shape.loops import is_circle
 from parser.text.lines import LINE_END
 from parser.text.source import Field
-from sim.check.blame.cases import MOST_PRINTED
-from sim.check.blame.settle import WrongWord
-from sim.check.closures import OpenContour, Suspected
-from sim.check.count_axes import WrongAxis
-from sim.check.engine import Checked
+from sim.check.blame.settle import MOST_PRINTED, WrongWord
+from sim.check.closures import OpenContour, Suspected, WrongAxis
+from sim.check.path_checks import Checked
 
 
 class Choice(NamedTuple):

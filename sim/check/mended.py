@@ -7,11 +7,11 @@ from parser.findings.codes import Severity
 from parser.findings.findings import Edit, Finding, compatible, edited
 from parser.program import Program, load_program
 from parser.text.encoding import encode_text
-from sim.check.engine import Checked, run_checks
 from sim.check.file_check import result_of
 from sim.check.fixes import with_edits
+from sim.check.path_checks import Checked, run_checks
 from sim.check.settings import CheckSettings
-from sim.check.silence.directives import without_known
+from sim.check.silence import without_known
 
 
 class MendedText(NamedTuple):

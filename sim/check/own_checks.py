@@ -19,7 +19,7 @@ from parser.findings.codes import CODES, FindingCode, Severity, add_codes
 from parser.findings.findings import Finding, Value, file_order
 from parser.program import Program
 from parser.text.source import Span
-from sim.check.engine import Checked
+from sim.check.path_checks import Checked
 from sim.check.result import CheckState
 
 GROUP: Final = "drycut.checks"

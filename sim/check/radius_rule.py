@@ -17,7 +17,7 @@ from parser.program import Program
 from parser.shape.loops import find_loops
 from parser.shape.passes import Passes
 from parser.toolpath import Toolpath
-from sim.check.shape.corners import ROUNDING_UM, tight_corners
+from sim.check.geometry import ROUNDING_UM, tight_corners
 
 USUAL_OFFSET_UM = 100.0
 """Offset of the usual wire, for which a shift is told where no other is known (docs/3b.md §5)."""

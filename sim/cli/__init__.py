@@ -11,7 +11,7 @@ import click
 from controller.compiled.compiling import on_compiling
 from parser import __version__
 from parser.findings.errors import DrycutError, Message, system_message
-from sim.cli.extras import missing
+from sim.cli.faults import missing
 from sim.cli.spoken import SpokenGroup, complaint, localised, spoken, words
 from sim.show.terminal.printer import say, write
 from sim.show.terminal.streams import OutputError, prepare_streams
@@ -54,7 +54,7 @@ def _show_version(ctx: click.Context, _: click.Parameter, is_wanted: bool) -> No
     """Print the version, and a digest of the sources: between two releases that alone tells them apart."""
     if not is_wanted or ctx.resilient_parsing:
         return
-    from sim.base.workers.makers import sources
+    from sim.base.workers.rounds import sources
 
     write(f"drycut, version {__version__}, sources {sources()}\n")
     ctx.exit()

@@ -6,11 +6,10 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from parser.findings.errors import Message
-from sim.cli.lengths import Length
+from sim.cli.options import Length
 from sim.cli.scenario_options import ENGINE_OPTION
 from sim.cli.spoken import Spoken, spoken, words
-from sim.cli.spoken.completing import offer_machines
-from sim.cli.spoken.values import FilePath
+from sim.cli.spoken.values import FilePath, offer_machines
 
 if TYPE_CHECKING:
     from sim.run.ballbar.circle import Ballbar
@@ -66,7 +65,7 @@ def ballbar(  # noqa: PLR0913, PLR0917 - click hands over each option by its nam
     from sim.cli.progress import StageProgress
     from sim.run.ballbar.circle import circle_test, document_text, run_test
     from sim.setup.machine.machine import load_machine
-    from sim.show.terminal.ballbar import print_ballbar
+    from sim.show.terminal.batch import print_ballbar
     from sim.show.terminal.printer import say, write
 
     if output is not None and output.suffix.lower() not in ("", ".png") and not output.is_dir():
@@ -103,7 +102,7 @@ def _write(done: "Ballbar", tolerance_um: float | None, output: Path) -> list[st
     names = [picture] * (done.measured is not None) + ["ballbar.json"] * (not alone)
     with staged(folder, names) as stage:
         if done.measured is not None:
-            from sim.show.pictures.ballbar.plot import draw_ballbar
+            from sim.show.pictures.ballbar import draw_ballbar
 
             draw_ballbar(done, done.measured, spoken()).save(stage / picture, dpi=(200, 200))
         if not alone:

@@ -1,18 +1,25 @@
-"""``drycut card``."""
+"""``drycut card``, and the work behind ``drycut card run``.
+
+``drycut card``.
+
+The work behind ``drycut card run``.
+"""
 
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import click
 
-from sim.cli.spoken import SpokenGroup
-from sim.cli.spoken.completing import offer_machines
-from sim.cli.spoken.values import DecimalNumber, FilePath
+from sim.cli.spoken import SpokenGroup, spoken
+from sim.cli.spoken.values import DecimalNumber, FilePath, offer_machines
 from sim.show.terminal.printer import say, write
 
 if TYPE_CHECKING:
     from controller.card.log import Difference, Replay
+    from sim.setup.scenario import Scenario
+
 
 SHOWN = 20
 """Differences that are printed; the others are counted."""
@@ -66,8 +73,8 @@ def build(output: Path) -> None:
     cc client.c -o client -I ges/include -L ges -lges -ldrycut_sleep
     LD_LIBRARY_PATH=ges ./client
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
-    from sim.clients.library.build import build as made_in
-    from sim.clients.library.compiler import found_compiler
+    from sim.clients.library import build as made_in
+    from sim.clients.library import found_compiler
 
     for path in made_in(output, found_compiler()):
         say(str(path))
@@ -115,7 +122,7 @@ def run(  # noqa: PLR0913 - click hands over each option by its name
     drycut card run ./client -o out/
     drycut card run --card machine.toml --timeout 300 -o out/ ./client part.dat
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
-    from sim.cli.card_client import ClientOptions, run_client
+    from sim.cli.card import ClientOptions, run_client
 
     client = ClientOptions(command, output, library, settings, call_s, longest_s, machine)
     raise click.exceptions.Exit(run_client(client, as_json=as_json))
@@ -151,3 +158,85 @@ def _json(name: str, done: "Replay", count: int, shown_differences: "list[Differ
         "first": [entry._asdict() for entry in shown_differences],
     }
     return json.dumps(result, ensure_ascii=False, indent=2) + "\n"
+
+
+_STDERR = 2
+"""Number of the stream that errors go to, in every process."""
+
+
+class ClientOptions(NamedTuple):
+    """The options as given; None where one was left out."""
+
+    command: tuple[str, ...]
+    output: Path
+    library: Path | None
+    settings: Path | None
+    call_s: float | None
+    longest_s: float
+    machine: str | None
+
+
+def run_client(options: ClientOptions, *, as_json: bool) -> int:
+    """Start the client, run its calls again and print what came of it; the exit code."""
+    from sim.base.files import scratch
+    from sim.cli.progress import StageProgress
+    from sim.clients.started import Wanted, started
+    from sim.jobs.run_into import STAGES, client_into, names_of
+    from sim.run.findings import verdict
+    from sim.run.report import report_text
+    from sim.show.terminal.batch import print_client
+    from sim.show.terminal.printer import say, write
+    from sim.show.texts import Words
+
+    scenario = scenario_of(options)
+    _refuse_settings(options)
+    with scratch() as folder, _library(options.library, folder) as library:
+        log = folder / "card.log"
+        wanted = Wanted(options.command, library, options.settings, options.call_s, options.longest_s)
+        ended = started(wanted, log, out=_STDERR if as_json else None)
+        with StageProgress(*STAGES) as progress:
+            done = client_into(options.output, log, ended, scenario, progress)
+    if as_json:
+        write(report_text(done.report), "json")
+    else:
+        tongue = spoken()
+        print_client(done, scenario.title, options.longest_s, tongue)
+        say(Words(tongue)("client.written", out=options.output, names=", ".join(names_of(done))))
+    findings = done.run.findings if done.run else done.read.program.findings
+    return 0 if ended.exit_code == 0 and verdict(findings) == "pass" else 1
+
+
+def scenario_of(options: ClientOptions) -> "Scenario":
+    """The machine that is asked for, with what else is usual; its title is the client."""
+    from dataclasses import replace
+
+    from parser.text.encoding import printable
+    from sim.cli.scenario_options import Overrides, overridden
+    from sim.clients.run import following
+    from sim.jobs.run_into import LOG
+
+    scenario = overridden(options.output / LOG, Overrides(machine=options.machine))
+    machine = scenario.machine.stepping_by("card")
+    if options.machine is None:
+        machine = following(machine)
+    return replace(scenario, title=printable(Path(options.command[0]).name), machine=machine, machine_by_default=False)
+
+
+def _refuse_settings(options: ClientOptions) -> None:
+    """SettingsError where the card's file is none; the client would see no more than a call that fails."""
+    from controller.card.abi.environment import CARD, card_environment
+
+    if options.settings is not None:
+        card_environment({CARD: str(options.settings)})
+
+
+@contextmanager
+def _library(given: Path | None, scratch: Path) -> Iterator[Path]:
+    """The folder of the library; made where none is given."""
+    if given is not None:
+        yield given
+        return
+    from sim.clients.library import build, found_compiler
+
+    build(scratch / "library", found_compiler())
+    yield scratch / "library"

@@ -5,8 +5,13 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from sim.cli.dialect_options import Offsets, OrRegister, offsets_of, with_dialect
-from sim.cli.lengths import Length
+from sim.cli.options import (
+    Length,
+    Offsets,
+    OrRegister,
+    offsets_of,
+    with_dialect,
+)
 from sim.cli.spoken import Spoken, spoken, words
 from sim.cli.spoken.values import FilePath
 
@@ -48,8 +53,8 @@ def compare(
     drycut compare scenarios/punch
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     from parser.drawing.read import read_drawing
-    from sim.cli.overrides import OfDrawing, drawing_target, read_with
-    from sim.measure.compare.compared_program import compare_program
+    from sim.cli.scenario_options import OfDrawing, drawing_target, read_with
+    from sim.measure.compare.compare import compare_program
     from sim.measure.compare.result import FitRequest
     from sim.run.report.drawing import document_text
     from sim.setup.scenario import load_scenario
@@ -89,8 +94,8 @@ def _program(scenario: "Scenario") -> "Program":
     from parser.program import moving
     from sim.check.travel import refuse_too_large
     from sim.cli.scenario_options import refused
-    from sim.jobs.source import program_read, source_of
-    from sim.run.offsetting import as_run
+    from sim.jobs.shop import program_read, source_of
+    from sim.run.prepare import as_run
 
     try:
         program = moving(program_read(scenario, source_of(scenario)))

@@ -7,24 +7,21 @@ from controller.compiled.loops import Loop
 
 LOOPS: Final[tuple[str, ...]] = (
     "controller.stepping.chunks",
-    "sim.make.cam.order.order",
-    "sim.cut.kerf.bands",
+    "sim.make.cam.order",
+    "sim.cut.kerf.shapes",
     "sim.cut.kerf.edges",
-    "sim.cut.kerf.last_beside",
-    "sim.cut.kerf.stars",
+    "sim.cut.kerf.ways",
     "sim.cut.play.freedom",
-    "sim.measure.compare.as_cut",
+    "sim.measure.compare.rings",
     "sim.measure.compare.nearest",
     "sim.measure.compare.directed",
     "sim.measure.curve_rows",
-    "sim.measure.deviation.across",
     "sim.measure.deviation.deviation",
-    "sim.measure.deviation.meters",
+    "sim.measure.deviation.causes",
     "sim.table.physics.drive",
     "sim.table.physics.rating",
-    "sim.table.record.bins",
     "sim.table.record.history",
-    "sim.table.solve.tick",
+    "sim.table.solve.axis",
 )
 """Modules with compiled loops."""
 

@@ -6,8 +6,13 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import click
 
 from parser.findings.errors import Message
-from sim.cli.dialect_options import Dialect, Offsets, OrRegister, offsets_of
-from sim.cli.lengths import Length
+from sim.cli.options import (
+    Dialect,
+    Length,
+    Offsets,
+    OrRegister,
+    offsets_of,
+)
 from sim.cli.spoken import Spoken, spoken
 from sim.cli.spoken.values import FilePath, WholeNumber
 
@@ -176,7 +181,7 @@ def _with_offset(program: "Program", given: Offsets, side: str | None) -> "Progr
         raise click.UsageError(Message("convert-offset-without-side"))
     if given.plain is None or side is None:
         return program
-    from sim.run.offsetting import as_run
+    from sim.run.prepare import as_run
     from sim.setup.part import SIDES, Offset, OffsetPass
 
     return as_run(program, Offset((OffsetPass(given.plain),), SIDES[side]))

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import click
 
 from parser.findings.errors import Message, ProgramError
-from sim.cli.dialect_options import RegisterSet, RegisterValue, with_dialect
+from sim.cli.options import RegisterSet, RegisterValue, with_dialect
 from sim.cli.scenario_options import describe
 from sim.cli.spoken import Spoken, spoken
 from sim.cli.spoken.values import FilePath, WholeNumber

@@ -8,9 +8,9 @@ import click
 
 from parser.findings.codes import CODES, Check, Severity
 from parser.findings.errors import Message
-from sim.cli.dialect_options import OwnOrNamed
+from sim.cli.options import OwnOrNamed
 from sim.cli.spoken import SpokenGroup, spoken
-from sim.cli.spoken.completing import offer_files
+from sim.cli.spoken.values import offer_files
 from sim.show.terminal.printer import say
 
 if TYPE_CHECKING:

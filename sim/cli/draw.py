@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from parser.findings.errors import Message, ProgramError
-from sim.cli.overrides import overridden, overrides_of
-from sim.cli.scenario_options import refused, scenario_options
+from sim.cli.scenario_options import overridden, overrides_of, refused, scenario_options
 from sim.cli.spoken import Spoken, spoken, words
 from sim.cli.spoken.values import FilePath
 
@@ -17,7 +16,7 @@ if TYPE_CHECKING:
 
     from parser.findings.findings import Finding
     from sim.setup.scenario import Scenario
-    from sim.show.draw.paints import ThemeName
+    from sim.show.draw.style import ThemeName
     from sim.show.pictures.files import PictureFiles
     from sim.show.pictures.shown import Drawable
 
@@ -101,7 +100,7 @@ def _drawn_from(
 ) -> "Iterator[tuple[Drawable, tuple[Finding, ...]]]":
     """What the pictures are drawn of, with its findings: the program alone where no other picture needs a run."""
     from parser.program import moving
-    from sim.jobs.source import program_read, source_of
+    from sim.jobs.shop import program_read, source_of
     from sim.show.pictures.path import PATH, PathAlone
 
     program = moving(program_read(scenario, source_of(scenario)))

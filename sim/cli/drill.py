@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import click
 
 from parser.findings.errors import Message, ProgramError, SettingsError
-from sim.cli.dialect_options import RegisterSet, RegisterValue, with_dialect
+from sim.cli.options import RegisterSet, RegisterValue, with_dialect
 from sim.cli.scenario_options import describe
 from sim.cli.spoken import Spoken, localised, words
 from sim.cli.spoken.values import FilePath, WholeNumber
@@ -47,7 +47,7 @@ def drill(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     drycut drill part.3b -o drills/ --set 17 --count 5 --level hard
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     from parser.dialect.reader import Choices
-    from sim.jobs.drills_into import PAGES, drills_into, names_of
+    from sim.jobs.run_into import PAGES, drill_names, drills_into
     from sim.show.terminal.printer import say
     from sim.teach.drill.drills import DrillRequest
 
@@ -57,7 +57,7 @@ def drill(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     _refuse_own_file(path, output, program, count)
     drills = _drills(program, request)
     drills_into(output, program, drills, number)
-    names = names_of(program, len(drills))
+    names = drill_names(program, len(drills))
     if len(drills) < count:
         say(words()("drill.few", name=program.name, made=len(drills), asked=count), err=True)
     say(_counts_text(program, drills, number))
@@ -78,9 +78,9 @@ def _read(path: Path, choices: "Choices") -> "Program":
 
 def _refuse_own_file(path: Path, output: Path, program: "Program", count: int) -> None:
     """BadParameter where a damaged program would take the place of the sound one."""
-    from sim.jobs.drills_into import names_of
+    from sim.jobs.run_into import drill_names
 
-    for file in (output / name for name in names_of(program, count)):
+    for file in (output / name for name in drill_names(program, count)):
         if file.exists() and file.samefile(path):
             raise click.BadParameter(Message("output-is-the-drilled-program", file=file), param_hint="-o")
 

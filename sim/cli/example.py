@@ -6,8 +6,7 @@ import click
 
 from parser.findings.errors import Message, did_you_mean
 from sim.cli.spoken import Spoken, words
-from sim.cli.spoken.completing import offer_examples
-from sim.cli.spoken.values import FilePath
+from sim.cli.spoken.values import FilePath, offer_examples
 
 
 @click.command(cls=Spoken)

@@ -10,7 +10,7 @@ from parser.findings.catalogue import Language
 from parser.findings.codes import CODES
 from parser.findings.errors import Message, did_you_mean
 from sim.cli.spoken import Spoken, spoken
-from sim.cli.spoken.completing import offer_pages
+from sim.cli.spoken.values import offer_pages
 
 if TYPE_CHECKING:
     from sim.show.findings.explained import Pages
@@ -48,9 +48,8 @@ def explain(name: str | None, sections: tuple[str, ...], *, search: str | None, 
 
 
 def _show(markdown: str) -> None:
-    from sim.show.terminal.colours import styled
     from sim.show.terminal.markdown import shown_lines
-    from sim.show.terminal.printer import say
+    from sim.show.terminal.printer import say, styled
     from sim.show.terminal.streams import outlet
     from sim.show.terminal.wrap import width_of
 
@@ -88,7 +87,7 @@ def _found_markdown(search: str, language: Language) -> str:
 
 def _known(name: str) -> tuple[str, str]:
     """The code of a name, or else the document; the other is empty. UsageError, with names like it, for neither."""
-    from sim.show.terminal.documents import documents
+    from sim.show.terminal.markdown import documents
 
     code, of_documents = name.strip().upper(), {known.upper(): known for known in documents()}
     if code in CODES:
@@ -101,7 +100,7 @@ def _known(name: str) -> tuple[str, str]:
 
 def _markdown(name: str | None, sections: tuple[str, ...], language: Language) -> str:
     from sim.show.findings.pages import list_text, page_text
-    from sim.show.terminal.documents import cited, document, section
+    from sim.show.terminal.markdown import cited, document, section
 
     if name is None:
         return list_text(language)

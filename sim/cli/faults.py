@@ -1,4 +1,9 @@
-"""A fault of drycut itself: what people are told, and a file with all that its makers need."""
+"""What ends a command that is no fault of its user: one of drycut itself, or a package that is not installed.
+
+A fault of drycut itself: what people are told, and a file with all that its makers need.
+
+What of an installation is missing: the extra that brings a package which a command needs.
+"""
 
 import platform
 import shlex
@@ -9,6 +14,7 @@ from typing import Final
 
 from parser import __version__
 from parser.findings.catalogue import Language
+from parser.findings.errors import Message
 from parser.text.encoding import harmless
 from sim.show.terminal.printer import say
 from sim.show.terminal.wrap import wrapped
@@ -66,3 +72,22 @@ def _written_file(lines: list[str]) -> str:
             return file.name
     except OSError:
         return ""
+
+
+EXTRA_OF: Final[Mapping[str, str]] = {
+    **dict.fromkeys(("PIL", "jinja2", "llvmlite", "markupsafe", "numba", "platformdirs"), "run"),
+    **dict.fromkeys(("pygame", "pymunk", "shapely"), "run"),
+    "ezdxf": "drawing",
+    **dict.fromkeys(("starlette", "uvicorn"), "open"),
+    **dict.fromkeys(("lsprotocol", "pygls"), "lsp"),
+    "imageio_ffmpeg": "film",
+    "distributed": "cluster",
+}
+"""Extras of `pyproject.toml` by the packages that they bring, as those are imported."""
+
+
+def missing(error: Exception) -> Message | None:
+    """What to say where an error is that a package is not installed that an extra brings; None of any other error."""
+    package = (error.name or "").partition(".")[0] if isinstance(error, ModuleNotFoundError) else ""
+    extra = EXTRA_OF.get(package)
+    return Message("needs-an-extra", package=package, extra=extra) if extra else None

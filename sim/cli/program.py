@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from sim.make.cam.maker import MadeProgram, NotMade
     from sim.setup.making import Language, ToMake
     from sim.setup.scenario import Scenario
-    from sim.show.draw.paints import ThemeName
+    from sim.show.draw.style import ThemeName
 
 
 class _ProgramRequest(NamedTuple):
@@ -105,7 +105,7 @@ def _written(made: "MadeProgram", request: _ProgramRequest, tongue: "Tongue", *,
 
 def _program_request(path: Path, output: Path | None, options: Options, *, is_written: bool) -> _ProgramRequest:
     """What is to be made. UsageError where it is not said which drawing, or where to."""
-    from sim.make.cam.request import drawing_to_cut
+    from sim.make.cam.maker import drawing_to_cut
     from sim.setup.making import ToMake
     from sim.setup.program_section import of_drawing, refuse_misfits
 
@@ -132,7 +132,7 @@ def _program_request(path: Path, output: Path | None, options: Options, *, is_wr
 
 def _scenario(path: Path, output: Path | None, options: Options) -> "Scenario":
     """The scenario of a folder, else one of the defaults, with the options in place of its own values."""
-    from sim.cli.overrides import Overrides, overridden
+    from sim.cli.scenario_options import Overrides, overridden
 
     given = Overrides(dialect=options.dialect, unit=options.unit, machine=options.machine, lengths=options.lengths)
     return overridden(path if path.is_dir() else (output or path.with_suffix(".3b")), given)
@@ -165,8 +165,7 @@ def _made_program(request: _ProgramRequest) -> "MadeProgram | NotMade":
     from dataclasses import replace
 
     from sim.cli.progress import StageProgress
-    from sim.make.cam.maker import made_program
-    from sim.make.cam.request import wanted_of
+    from sim.make.cam.maker import made_program, wanted_of
     from sim.run.recording import stages_of
 
     wanted = wanted_of(request.to_make, request.language, request.scenario)
@@ -177,9 +176,8 @@ def _made_program(request: _ProgramRequest) -> "MadeProgram | NotMade":
 
 def _with_findings(done: "MadeProgram", request: _ProgramRequest, tongue: "Tongue") -> bytes:
     """The program with what speaks against it at its head."""
-    from sim.make.cam.maker import remarked
-    from sim.make.cam.request import wanted_of
-    from sim.show.terminal.proof import against
+    from sim.make.cam.maker import remarked, wanted_of
+    from sim.show.terminal.program import against
 
     wanted = wanted_of(request.to_make, request.language, request.scenario)
     return remarked(done, [*against(done, tongue)], wanted).data
@@ -195,7 +193,7 @@ def _write(output: Path, data: bytes) -> None:
 def _draw(done: "MadeProgram", picture: _Picture, tongue: "Tongue") -> None:
     from sim.show.draw.sheet import SIZES_PX
     from sim.show.pictures.files import PictureFiles, write_pictures
-    from sim.show.pictures.plan.picture import PLAN, PlanShown
+    from sim.show.pictures.plan import PLAN, PlanShown
 
     assert picture.file is not None  # noqa: S101 - asked before
     files = PictureFiles(picture.file.parent, {PLAN: picture.file.name})

@@ -8,13 +8,11 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeVar
 import click
 
 from parser.findings.errors import Message
-from sim.cli.dialect_options import WRITTEN_IN
-from sim.cli.lengths import Length, length_options, taken_lengths
-from sim.cli.spoken.completing import offer_machines
-from sim.cli.spoken.values import WholeNumber
+from sim.cli.options import WRITTEN_IN, Length, length_options, taken_lengths
+from sim.cli.spoken.values import WholeNumber, offer_machines
 from sim.setup.making import CORNERS, DIRECTION_WISHES, ENCODINGS, FORMS, LEAD_INS, SIDE_WISHES
+from sim.setup.part import THICKNESS
 from sim.setup.wire import DIAMETER, SPARK_GAP
-from sim.setup.work import THICKNESS
 
 if TYPE_CHECKING:
     from parser.toolpath import Point

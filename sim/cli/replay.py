@@ -8,15 +8,14 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from parser.findings.errors import Message, ProgramError
-from sim.cli.overrides import overridden, overrides_of
-from sim.cli.scenario_options import refused, scenario_options
+from sim.cli.scenario_options import overridden, overrides_of, refused, scenario_options
 from sim.cli.spoken import Spoken, spoken, words
 from sim.cli.spoken.values import DecimalNumber, FilePath, WholeNumber
 
 if TYPE_CHECKING:
     from sim.base.progress import Progress
     from sim.run.recording import Recording
-    from sim.show.draw.paints import ThemeName
+    from sim.show.draw.style import ThemeName
     from sim.show.film.screen import Look
 
 _SIZE = re.compile(r"(\d{3,4})\s*[x×]\s*(\d{3,4})", re.ASCII)
@@ -91,7 +90,7 @@ def replay(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     from parser.program import moving
     from sim.cli.progress import StageProgress
-    from sim.jobs.source import program_read, source_of
+    from sim.jobs.shop import program_read, source_of
     from sim.run.findings import verdict
     from sim.run.recording import recorded, stages_of
     from sim.show.film.screen import Look
@@ -120,7 +119,7 @@ def replay(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
 
 def _refuse(output: Path, seconds: float, fps: int, look: "Look") -> None:
     """SettingsError, before anything runs, where there can be no such film."""
-    from sim.show.film.film import format_of
+    from sim.show.film.writers import format_of
 
     format_of(output, seconds, fps, look)
 
@@ -137,6 +136,6 @@ def _write_page(output: Path, recording: "Recording", progress: "Progress") -> N
 def _write_film(  # noqa: PLR0913, PLR0917 - a run, where to, and how
     output: Path, recording: "Recording", seconds: float, fps: int, look: "Look", progress: "Progress"
 ) -> None:
-    from sim.show.film.film import write_film
+    from sim.show.film.writers import write_film
 
     write_film(output, recording, seconds, fps, look, progress)

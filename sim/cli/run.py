@@ -11,11 +11,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import click
 
 from parser.findings.errors import Message, ProgramError
-from sim.cli.overrides import Overrides, overridden, overrides_of
-from sim.cli.scenario_options import refused, scenario_options
+from sim.cli.scenario_options import Overrides, overridden, overrides_of, refused, scenario_options
 from sim.cli.spoken import Spoken, spoken, words
-from sim.cli.spoken.completing import offer_files
-from sim.cli.spoken.values import FilePath
+from sim.cli.spoken.values import FilePath, offer_files
 from sim.cli.spread import Spread, pool_of, spread_options
 
 if TYPE_CHECKING:
@@ -166,9 +164,8 @@ def _run_one(scenario: "Scenario", files: _Files, *, as_json: bool) -> int:
 def _run(scenario: "Scenario", files: _Files) -> "DryRun":
     from parser.program import moving
     from sim.cli.progress import StageProgress
-    from sim.jobs.source import program_read, source_of
-    from sim.run.card_log import logging_to
-    from sim.run.recording import check_expectations, stages_of
+    from sim.jobs.shop import program_read, source_of
+    from sim.run.recording import check_expectations, logging_to, stages_of
     from sim.run.running import dry_run
 
     settings = scenario.machine.controller.card_settings

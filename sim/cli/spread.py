@@ -10,7 +10,7 @@ from parser.findings.errors import Message
 from sim.cli.spoken.values import WholeNumber
 
 if TYPE_CHECKING:
-    from sim.base.workers.processes import Pool
+    from sim.base.workers.rounds import Pool
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 
@@ -38,7 +38,7 @@ def spread_options(command: Command) -> Command:
 def pool_of(spread: Spread) -> Iterator["Pool"]:
     """The workers that are asked for. UsageError where both kinds are, ClusterError where none can be reached."""
     if spread.scheduler is None:
-        from sim.base.workers.processes import Processes
+        from sim.base.workers.rounds import Processes
 
         yield Processes(spread.jobs)
         return

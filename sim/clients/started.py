@@ -13,7 +13,7 @@ from typing import NamedTuple
 from controller.card.abi.environment import CALL_S, CARD, LOG
 from parser.findings.errors import DrycutError, FileUnreadableError
 from parser.text.encoding import printable
-from sim.clients.library.build import LIBRARY, SLEEP
+from sim.clients.library import LIBRARY, SLEEP
 
 
 class StartError(DrycutError, RuntimeError):

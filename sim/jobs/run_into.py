@@ -1,24 +1,27 @@
-"""A run with its files: picture, pages and report in one folder, and its trace where asked for; all or none of them.
+"""What is written of a run, of a program for the card and of fault drills: all files of one folder, or none.
+
+A run with its files: picture, pages and report in one folder, and its trace where asked for; all or none of them.
 
 A program for the card, run, with its files: those of every run, the log of its card, and its calls as a text.
+
+Fault drills with their files: the two pages, and the damaged programs beside them.
 """
 
 import shutil
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
 from typing import Final
 
 from controller.card.log import CardLog, CardLogError
 from parser.findings.catalogue import Language
-from parser.program import Program
+from parser.program import Program, usual_name
 from sim.base.files import StepFiles, staged
 from sim.base.progress import Progress, silent
 from sim.clients.listing import NAME as CALLS
-from sim.clients.run import ClientRun, Read, read_again, run_client
+from sim.clients.run import ClientRun, Read, card_document, read_again, run_client, without_motion
 from sim.clients.session import session_of
 from sim.clients.started import Ended
-from sim.clients.table import card_document, without_motion
 from sim.jobs.trace_file import TRACE, write_trace
 from sim.run.dryrun import DryRun
 from sim.run.recording import Recording, recording_of, reported, stages_of
@@ -27,11 +30,13 @@ from sim.run.report.model import ReportDocument
 from sim.run.running import dry_run
 from sim.setup.scenario import Scenario
 from sim.show.draw.sheet import pixels
+from sim.show.drill_page import answers_page, drill_page
 from sim.show.pictures.cut.of_run import draw_cut_of_run
 from sim.show.pictures.gallery import subject_of
 from sim.show.pictures.inline import inline_pictures
 from sim.show.replay.document import replay_page
 from sim.show.report_page.page import report_page
+from sim.teach.drill.drills import Drill
 
 FILES: Final = ("report.html", "replay.html", "cut.png", "report.json")
 """What every run writes."""
@@ -142,3 +147,27 @@ def read_log(log: Path) -> Read:
 def names_of(done: ClientRun) -> tuple[str, ...]:
     """Names of the files that were written."""
     return (*(FILES if done.run else ("report.json",)), LOG, CALLS)
+
+
+PAGES: Final = ("drill.html", "answers.html")
+
+
+def drills_into(folder: Path, program: Program, drills: Sequence[Drill], number: int) -> None:
+    """Write the drills of a set of a program, as one set of files or not at all.
+
+    FileUnreadableError where the folder cannot be written.
+    """
+    names = drill_names(program, len(drills))
+    with staged(folder, [*PAGES, *names]) as stage:
+        (stage / PAGES[0]).write_text(drill_page(program, drills, number, names), "utf-8")
+        (stage / PAGES[1]).write_text(answers_page(program, drills, number), "utf-8")
+        for name, drill in zip(names, drills, strict=True):
+            (stage / name).write_bytes(drill.program.text.encode(program.encoding))
+
+
+def drill_names(program: Program, count: int) -> list[str]:
+    """Names of the files of so many damaged programs: they end as that of the sound one does, where that is a word."""
+    suffix = Path(program.name).suffix
+    if not (suffix.isascii() and suffix[1:].isalnum()):
+        suffix = Path(usual_name(program.text)).suffix
+    return [f"drill-{at:02}{suffix}" for at in range(1, count + 1)]

@@ -1,4 +1,8 @@
-"""The programs of a shop: what names, folders and globs lead to, each once, a scenario with the program that is its.
+"""The programs of a shop: where each comes from, each once, a scenario with the program that is its.
+
+Where the program of a scenario comes from: its file, or its drawing where there is no file.
+
+The programs of a shop: what names, folders and globs lead to, each once, a scenario with the program that is its.
 
 A folder in OUT for each program: as the shop has them, under names that every system takes and that never meet.
 """
@@ -14,11 +18,61 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Final, NamedTuple
 
-from parser.findings.errors import DrycutError
-from parser.program import suffixes
+from parser.files import read_bytes
+from parser.findings.errors import DrawingError, DrycutError
+from parser.program import Program, load_program, suffixes
 from parser.text.encoding import printable
+from parser.write.threeb import with_usual_codes
+from sim.base.progress import Progress, silent
 from sim.check.files import FileFilter, find_files
+from sim.setup.making import ToMake
 from sim.setup.scenario import Scenario
+
+
+class Source(NamedTuple):
+    """Bytes of a program, and whether they were made of a drawing, so that no file holds them yet."""
+
+    data: bytes
+    is_made: bool
+
+
+def source_of(scenario: Scenario, progress: Progress = silent) -> Source:
+    """The bytes of a scenario's program.
+
+    Raises FileUnreadableError where file or drawing cannot be read, DrawingError where no program can be made of the
+    drawing, SettingsError where it cannot be written as it is asked for.
+    """
+    if scenario.to_make is None or scenario.program.exists():
+        return Source(read_bytes(scenario.program), is_made=False)
+    return Source(_made_bytes(scenario, scenario.to_make, progress), is_made=True)
+
+
+def _made_bytes(scenario: Scenario, to_make: ToMake, progress: Progress) -> bytes:
+    # Few programs are made, and what makes them takes long to load.
+    from sim.make.cam.maker import NotMade, program_of  # noqa: PLC0415
+    from sim.show.refusals import why_refused  # noqa: PLC0415
+
+    done = program_of(scenario, to_make, progress)
+    if isinstance(done, NotMade):
+        drawing = printable(str(scenario.drawing and scenario.drawing.file))
+        raise DrawingError("no-program-of-drawing", drawing=drawing, why=why_refused(done.refusal))
+    return done.data
+
+
+def program_read(scenario: Scenario, source: Source) -> Program:
+    """The program of its bytes, read by the words for end and pause that it is asked to have. ProgramError if none."""
+    return load_program(_in_usual_words(scenario, source.data), printable(scenario.program.name), scenario.choices)
+
+
+def _in_usual_words(scenario: Scenario, data: bytes) -> bytes:
+    """With ``DD`` and ``D``, where ``[program]`` names words of its own."""
+    if scenario.to_make is None:
+        return data
+    writing = scenario.to_make.writing
+    codes = writing.end_code, writing.pause_code
+    end, pause = (None if code is None else code.encode(writing.encoding, "replace") for code in codes)
+    return with_usual_codes(data, end, pause) if end or pause else data
+
 
 # Forbidden in names by Windows, with what is no character for people.
 # https://learn.microsoft.com/windows/win32/fileio/naming-a-file

@@ -15,7 +15,7 @@ from parser.shape.passes import Pass
 from parser.toolpath import Stop
 from sim.check.offset import InPass
 from sim.cut.pieces.pieces import Piece, Pieces
-from sim.measure.deviation.across import Across, across
+from sim.measure.deviation.deviation import Across, across
 from sim.run.dryrun import DryRun
 from sim.run.recording import Recording
 from sim.table.record.losses import Loss

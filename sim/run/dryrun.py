@@ -19,13 +19,12 @@ from parser.shape.contours import Contour
 from parser.shape.passes import Passes
 from parser.text.source import BlockNames
 from parser.toolpath import Toolpath
-from sim.check.pass_over_round import Offsetting
+from sim.check.offset import Offsetting
 from sim.check.result import Coverage
 from sim.cut.remains import Remains
 from sim.measure.compare.result import Comparison
-from sim.measure.deviation.causes import Deviations
-from sim.measure.deviation.meters import BlockSteps
-from sim.measure.passes.figures import PassFigures
+from sim.measure.deviation.causes import BlockSteps, Deviations
+from sim.measure.passes import PassFigures
 from sim.run.ending import Ending
 from sim.setup.expectations import Missed
 from sim.setup.machine.machine import Machine

@@ -1,4 +1,9 @@
-"""A recorded run: the run and every step of it, which pictures, report and replay are made of."""
+"""A recorded run: the run and every step of it, which pictures, report and replay are made of; and its card's log.
+
+A recorded run: the run and every step of it, which pictures, report and replay are made of.
+
+The log of a run's card as a file, whole or not at all.
+"""
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -8,9 +13,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from controller.card.core.settings import CardSettings
+from controller.card.log import CardLog
 from controller.stepping.pulses import Pulses
 from parser.program import Program
-from sim.base.files import StepFiles, scratch
+from sim.base.files import StepFiles, scratch, staged
 from sim.base.progress import Progress, silent
 from sim.cut.pieces.pieces import Frame, Pieces
 from sim.cut.regions import RegionError
@@ -112,3 +119,20 @@ def _passes(run: DryRun) -> float:
     column, row = np.floor(run.cut.wire_um / kerf_um).astype(np.int64).T
     met = len(np.unique(column * (1 << 32) + row))
     return float(run.toolpath.length_um[~run.toolpath.is_jump].sum()) / (met * kerf_um)
+
+
+@contextmanager
+def logging_to(path: Path | None, settings: CardSettings) -> Iterator[CardLog | None]:
+    """Log that becomes the file `path`, a link followed, at the end of a block that raised nothing; none without.
+
+    FileUnreadableError where the file cannot be written.
+    """
+    if path is None:
+        yield None
+        return
+    target = path.resolve()
+    with (
+        staged(target.parent, [target.name]) as stage,
+        (stage / target.name).open("w", encoding="utf-8", newline="\n") as stream,
+    ):
+        yield CardLog(stream, settings)

@@ -23,15 +23,15 @@ from parser.shape.contours import Contour, find_contours
 from parser.shape.passes import Passes, find_passes
 from sim.base.progress import Progress, silent
 from sim.check.result import CheckState
-from sim.cut.obstacles.findings import missed_work_findings, obstacle_findings
-from sim.cut.pieces.findings import piece_findings, region_finding
+from sim.cut.obstacles import missed_work_findings, obstacle_findings
+from sim.cut.pieces.pieces import piece_findings, region_finding
 from sim.cut.regions import RegionError
 from sim.cut.remains import Remains, remains_of
 from sim.cut.wire_lag import bowed
 from sim.measure.compare.findings import compare_cut, drawing_findings
 from sim.measure.compare.result import Comparison
 from sim.measure.deviation.causes import Meters
-from sim.measure.passes.figures import PassFigures, figures_of_passes, wire_taken
+from sim.measure.passes import PassFigures, figures_of_passes, wire_taken
 from sim.run.dryrun import DryRun, PulseSink
 from sim.run.ending import Ending, motion_to_end, trip_of
 from sim.run.prepare import Prepared, prepare

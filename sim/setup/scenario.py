@@ -19,15 +19,22 @@ from parser.text.encoding import printable
 from parser.units import from_mm
 from sim.setup.dialect import READ_WITH, chosen_dialect
 from sim.setup.expectations import EXPECT, Expectation, expect_section, read_expectation
-from sim.setup.machine.controller_model import INTERPOLATOR
 from sim.setup.machine.machine import Machine, load_machine
+from sim.setup.machine.table_model import INTERPOLATOR
 from sim.setup.making import LayerWish, ToMake
 from sim.setup.obstacles import CLAMPS, Clamp, Outline, read_clamps
 from sim.setup.part import (
+    DEFAULT_DENSITY_G_CM3,
+    DEFAULT_THICKNESS_MM,
+    DENSITY_G_CM3,
     DRAWING,
     OFFSET,
     PASS,
+    SHEET,
+    THICKNESS_MM,
+    WORK,
     DrawingTarget,
+    JobFields,
     Offset,
     OffsetPass,
     read_drawing_target,
@@ -39,15 +46,6 @@ from sim.setup.toml.keys import Key, Section, WrittenSection
 from sim.setup.toml.kinds import FileName, Name, Number, TablePlace, Text, Truth
 from sim.setup.toml.reader import Bound, load_toml, number, section
 from sim.setup.wire import DEFAULT_WIRE, WIRE, Wire, read_wire
-from sim.setup.work import (
-    DEFAULT_DENSITY_G_CM3,
-    DEFAULT_THICKNESS_MM,
-    DENSITY_G_CM3,
-    SHEET,
-    THICKNESS_MM,
-    WORK,
-    JobFields,
-)
 
 MACHINE_FILE = "machine.toml"
 """Name of the machine file beside a scenario file that is written."""

@@ -4,9 +4,9 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Final, TypeVar
 
+from sim.setup.part import WORK
 from sim.setup.toml.keys import Key
 from sim.setup.wire import WIRE
-from sim.setup.work import WORK
 
 Whole = TypeVar("Whole", bound="DataclassInstance")
 if TYPE_CHECKING:

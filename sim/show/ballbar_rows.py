@@ -5,10 +5,9 @@ from typing import NamedTuple
 from parser.controller_words import Axis
 from parser.units import mm
 from sim.run.ballbar.circle import Ballbar
-from sim.run.ballbar.figures import NAMES, Figures, Sense
-from sim.run.ballbar.parts import DeviationParts
+from sim.run.ballbar.figures import NAMES, DeviationParts, Figures, Sense
+from sim.show.texts import Words
 from sim.show.texts.phrases import machine_name
-from sim.show.texts.texts import Words
 from sim.table.record.losses import Loss
 
 

@@ -1,4 +1,9 @@
-"""Why no program is made of a drawing, in words."""
+"""Why no program is made of a drawing, and what a run took for granted, in words.
+
+Why no program is made of a drawing, in words.
+
+What a run took for granted, in words, for terminal and page.
+"""
 
 from collections.abc import Sequence
 
@@ -6,8 +11,11 @@ from parser.findings.catalogue import Bilingual
 from parser.text.encoding import printable
 from parser.units import mm
 from sim.make.cam.model import Refusal
+from sim.run.dryrun import DryRun, assumptions_of
+from sim.setup.key_words import words_of
+from sim.setup.machine.machine import SECTIONS
 from sim.show.texts import bilingual
-from sim.show.texts.phrases import same
+from sim.show.texts.phrases import as_read, listed, machine_name, same
 
 _MOST_PLACES = 5
 
@@ -34,3 +42,21 @@ def place_text(place: tuple[float, float]) -> str:
     """A place in mm, such as ``(12.5, -3)``."""
     x, y = (round(mm(value), 3) + 0.0 for value in place)
     return f"({x:g}, {y:g})"
+
+
+def taken_for_granted(run: DryRun) -> list[Bilingual]:
+    """A sentence for each: how the program was read, the machine, and what nobody has measured or looked at."""
+    found = assumptions_of(run)
+    lines = [bilingual("assumptions.program", parts=as_read(found.program))] if found.program else []
+    key = "by-default" if found.by_default else "chosen"
+    lines.append(bilingual(f"assumptions.{key}", machine=machine_name(found.machine)))
+    if found.values:
+        names = {key.name: words_of(section, key).name for section in SECTIONS for key in section.keys}
+        lines.append(
+            bilingual("assumptions.values", count=len(found.values), values=listed(names[key] for key in found.values))
+        )
+    if not found.compared:
+        lines.append(bilingual("assumptions.no-drawing"))
+    if not found.wire_bows:
+        lines.append(bilingual("assumptions.straight"))
+    return lines

@@ -12,15 +12,13 @@ from parser.geometry.curves import Floats, Ints
 from parser.units import from_mm
 from sim.setup.machine.machine import TableEngine
 from sim.setup.machine.table_model import TableModel
-from sim.table.physics.bodies import Bodies
-from sim.table.physics.drive import drives_of
+from sim.table.physics.drive import Bodies, drives_of
 from sim.table.record.history import History, history_of
 from sim.table.record.losses import Loss, Peak, Slip, SlipTally, in_order, peaks_of, trip_loss
-from sim.table.solve.reference import InBodies
-from sim.table.solve.run import AxisRun, Engine, axis_of
-from sim.table.solve.tick import followed
+from sim.table.solve.axis import followed
+from sim.table.solve.run import AxisRun, Engine, InBodies, axis_of
+from sim.table.ticks import Ticks
 from sim.table.trace import Trace
-from sim.table.when.ticks import Ticks
 
 _SIDE_BY_SIDE = 1 << 13
 """Pulses from which a second core is worth its while: to hand them over takes as long as some hundred."""

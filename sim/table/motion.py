@@ -20,8 +20,8 @@ from sim.setup.machine.machine import Machine
 from sim.table.follow import Following, Setup
 from sim.table.record.history import History
 from sim.table.record.losses import Loss, Peak
+from sim.table.ticks import Ticks, choose_ticks, rhythm
 from sim.table.trace import Trace, origin_um
-from sim.table.when.ticks import Ticks, choose_ticks, rhythm
 
 _TOGETHER = 1 << 14
 """Pulses that the table follows at a time: each time costs it a millisecond, and slow feeds hand out few at once."""

@@ -26,11 +26,11 @@ from parser.findings.catalogue import page as catalogue_page
 from parser.findings.codes import CODES, Check
 from parser.program import read_program
 from parser.text.encoding import encode_text
-from sim.check.engine import PARSER_CHECKS, PATH_CHECKS
+from sim.check.path_checks import PARSER_CHECKS, PATH_CHECKS
 from sim.check.settings import read as check_settings
 from sim.check.settings.search import SettingsSearch
 from sim.cli.check.command import check
-from sim.cut.kerf.stars import rays as kerf_rays
+from sim.cut.kerf.shapes import rays as kerf_rays
 from sim.jobs.trace_file import trace_arrays
 from sim.run.dryrun import DryRun
 from sim.run.report import build_report

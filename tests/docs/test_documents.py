@@ -8,7 +8,7 @@ from schema_pages import DOCUMENTS
 from script_types import pages
 
 from parser.documents import Document, document_schema
-from sim.run.report.drawing_model import COMPARE
+from sim.run.report.drawing import COMPARE
 from sim.run.report.model import REPORT
 
 

@@ -10,9 +10,8 @@ from parser.drawing.dxf import blocks, document
 from parser.iso.path import flow
 from parser.threeb import reader
 from sim.base.workers import cluster
-from sim.check import travel
+from sim.check import crossings, travel
 from sim.check.blame import settle
-from sim.check.shape import crossings
 from sim.jobs import shop
 from sim.measure.compare import nearest, rings
 from sim.setup.toml import reader as toml

@@ -18,7 +18,7 @@ from places import ROOT
 
 from drycut import __version__
 from parser.findings.codes import CODES
-from sim.show.terminal.documents import files
+from sim.show.terminal.markdown import files
 
 LOCKS = ("requirements-core-lock.txt", "requirements-all-lock.txt", "requirements-lock.txt")
 OWN = {"test", "docs"}

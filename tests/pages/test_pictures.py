@@ -6,8 +6,8 @@ from browser import OpenPage
 from everything import everything
 from golden_pictures import screen
 
-from sim.show.draw.paints import DARK, LIGHT, Theme
 from sim.show.draw.sheet import drawing, pixels
+from sim.show.draw.style import DARK, LIGHT, Theme
 
 
 @pytest.mark.parametrize("theme", [LIGHT, DARK], ids=["light", "dark"])

@@ -21,7 +21,7 @@ from sim.check.result import CheckResult
 from sim.check.settings import CheckSettings
 from sim.run.report import build_report
 from sim.setup.quiz import Question
-from sim.show.assumptions import taken_for_granted
+from sim.show.refusals import taken_for_granted
 from sim.show.replay.document import replay_document
 from sim.show.replay.quiz import quiz_of
 

@@ -9,8 +9,7 @@ from typing import NamedTuple
 import pytest
 from places import ROOT
 
-from sim.clients.library.build import build
-from sim.clients.library.compiler import Compiler, CompilerError, found_compiler
+from sim.clients.library import Compiler, CompilerError, build, found_compiler
 
 CLIENTS = ROOT / "tests" / "clients"
 WARNINGS = ("-Wall", "-Wextra", "-Werror", "-Wno-unused-function")

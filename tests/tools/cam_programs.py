@@ -12,7 +12,7 @@ from parser.shape.passes import find_passes
 from parser.threeb.decode import decode
 from parser.threeb.reader import read_records
 from parser.toolpath import Toolpath
-from sim.check.shape.crossings import find_crossings
+from sim.check.crossings import find_crossings
 
 
 class Row(NamedTuple):

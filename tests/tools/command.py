@@ -13,7 +13,7 @@ from unittest import mock
 from places import ROOT
 
 from sim.cli import main
-from sim.cli.spoken.tongue import speak_as_asked
+from sim.cli.spoken.commands import speak_as_asked
 
 HANGUP = getattr(signal, "SIGHUP", signal.SIGTERM)
 """What a closed terminal sends; Windows has no such signal."""

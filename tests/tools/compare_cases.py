@@ -15,7 +15,7 @@ from parser.drawing.model import Drawing, DrawnLoop, Entity
 from parser.geometry.curves import Curves, Floats, Ints, curves_between, joined
 from parser.program import parse_program
 from parser.toolpath import Toolpath
-from sim.measure.compare.edge import Edge
+from sim.measure.compare.result import Edge
 
 MM = 1000.0
 INCH = 25_400.0

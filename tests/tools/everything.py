@@ -4,7 +4,7 @@ import numpy as np
 
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.layout import Box
-from sim.show.draw.paints import Paint
+from sim.show.draw.style import Paint
 
 
 def square(low: float, high: float, by: float = 0.0) -> np.ndarray:

@@ -12,12 +12,12 @@ from runs import plain_scenario
 from parser.drawing.read import read_drawing
 from parser.geometry.curves import Curves
 from parser.program import load_program
+from sim.make.cam.compensated_draft import draft_of_plan
 from sim.make.cam.maker import planned
 from sim.make.cam.model import CutPlan, FigureCut
-from sim.make.cam.path.compensated_draft import draft_of_plan
-from sim.make.cam.proof.proof import ToProve, proved
-from sim.make.cam.proof.target import Proof
-from sim.make.convert.proof import proof as held_against
+from sim.make.cam.proof import ToProve, proved
+from sim.make.cam.target import Proof
+from sim.make.convert.convert import proof as held_against
 from sim.make.convert.wanted import Wanted, read_with, written
 from sim.setup.making import Making
 from sim.setup.scenario import Scenario

@@ -7,8 +7,8 @@ from typing import Any, NamedTuple
 from parser.geometry.curves import Floats
 from sim.show.draw.layout import Box
 from sim.show.draw.letters import Letters
-from sim.show.draw.paints import LIGHT, Paint, Theme
 from sim.show.draw.sheet import Sheet
+from sim.show.draw.style import LIGHT, Paint, Theme
 
 
 class Drawn(NamedTuple):

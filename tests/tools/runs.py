@@ -12,7 +12,7 @@ from controller.motion.limits import row_limits
 from controller.stepping.pulses import Pulses
 from parser.program import parse_program
 from sim.base.progress import silent
-from sim.jobs.source import program_read, source_of
+from sim.jobs.shop import program_read, source_of
 from sim.run.dryrun import DryRun
 from sim.run.recording import Recording, check_expectations, recorded
 from sim.run.running import dry_run

@@ -9,11 +9,10 @@ from typing import Any
 
 from parser.findings.catalogue import Language
 from parser.program import load_program
-from sim.base.workers.processes import Pool
-from sim.jobs.batch import TAKEN, Batch, run_batch
+from sim.base.workers.rounds import Pool
+from sim.jobs.batch import TAKEN, Batch, Done, Task, run_batch
 from sim.jobs.index import Row
 from sim.jobs.shop import find_programs
-from sim.jobs.task import Done, Task
 from sim.setup.scenario import load_scenario
 
 TINY = "B{0}B0B{0}GXL1\nB0B{0}B{0}GYL2\nB{0}B0B{0}GXL3\nB0B{0}B{0}GYL4\nDD\n"

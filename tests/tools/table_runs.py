@@ -13,7 +13,7 @@ from sim.setup.machine.machine import Machine, TableEngine
 from sim.setup.machine.table_model import Motor, TableModel
 from sim.table.follow import Following, Setup
 from sim.table.motion import Motion, Moved, TableRun, driven, motion_of
-from sim.table.when.ticks import Ticks
+from sim.table.ticks import Ticks
 
 TICK_S = 1e-4
 """Of runs with ticks that are all alike."""

@@ -1,4 +1,6 @@
-"""The functions of the card's library, read from their table: ``ge-functions.csv``, as the vendor's header has them.
+"""The table of the functions of the card's library, and the C that is made of it.
+
+The functions of the card's library, read from their table: ``ge-functions.csv``, as the vendor's header has them.
 
 All that is in C is made of this table; a test holds it against the Python functions of the card.
 

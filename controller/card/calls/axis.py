@@ -1,4 +1,6 @@
-"""Functions of single axes: drives, limits, captures, positions, errors, encoders.
+"""Functions of single axes: drives, limits, captures, positions, errors, encoders, and their status.
+
+Functions of single axes: drives, limits, captures, positions, errors, encoders.
 
 Status of axes and their switches. Levels are those of the inputs, which no sense turns (`wiring`).
 

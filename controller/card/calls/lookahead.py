@@ -1,4 +1,6 @@
-"""Look-ahead of the library that tells the program the end speeds of its blocks.
+"""The look-ahead of the library, in both forms: end speeds told to the program, and a mode of path calls.
+
+Look-ahead of the library that tells the program the end speeds of its blocks.
 
 All of it is grade C. ``T`` is the time in which a corner is turned, ms: there the velocity may change by ``amax T``.
 `amax` also bends arcs, `am` is the acceleration along the path (both pulse/ms²), `vmax` and `F` are pulse/ms. `n`

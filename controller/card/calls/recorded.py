@@ -1,4 +1,6 @@
-"""Functions of the machine around the axes that are only recorded: guards, gantry, hand wheel, ADC, senses, pulses.
+"""Functions that are only recorded: of the machine around the axes, and of tools.
+
+Functions of the machine around the axes that are only recorded: guards, gantry, hand wheel, ADC, senses, pulses.
 
 Functions of tools that are only recorded: laser, cut-follow, spindle.
 

@@ -1,4 +1,6 @@
-"""Functions that set speeds and accelerations, pulse/ms and pulse/ms².
+"""Functions that set how axes move: speeds, accelerations, servo settings.
+
+Functions that set speeds and accelerations, pulse/ms and pulse/ms².
 
 Speeds of entries are stored in order: they hold for the entries pushed afterwards, in the list as for immediate moves.
 Ceiling, start speed and overrides hold for a running motion at once, which is planned anew (grade C but for overrides).

@@ -1,4 +1,6 @@
-"""Return codes and status bits of the card, as its programs and headers give them (docs/card.md).
+"""How a function of the card is called, and the codes with which it answers (docs/card.md).
+
+Return codes and status bits of the card, as its programs and headers give them (docs/card.md).
 
 How a function of the card is called: it passes time, checks its arguments as C types, answers with a code.
 

@@ -1,4 +1,6 @@
-"""Entries of the list: what the card runs one after another, in pulses and seconds.
+"""The list of the card: its entries, in pulses and seconds, their order, and where it ends.
+
+Entries of the list: what the card runs one after another, in pulses and seconds.
 
 A place holds the four axes; lines and arcs keep the columns of one row of a `Path`, so that a path is built of entries
 without any arithmetic, and what is left of an entry after a stop is an entry again.

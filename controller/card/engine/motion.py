@@ -1,4 +1,6 @@
-"""The motion of one card at any instant: its clock, its state, and the pulses that have gone out.
+"""The motion of one card at any instant: its clock, its states, and the pulses that have gone out.
+
+The motion of one card at any instant: its clock, its state, and the pulses that have gone out.
 
 The states of one card's motion, and what becomes of one by a stop, an end, a list opened afresh.
 

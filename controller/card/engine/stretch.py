@@ -1,4 +1,6 @@
-"""A stretch: entries that one interpolator runs, with their path, limits, plan and pulses.
+"""A stretch: entries that one interpolator runs, with their path, limits, plan and pulses, and how it is made.
+
+A stretch: entries that one interpolator runs, with their path, limits, plan and pulses.
 
 Stretches are made: entries to path, limits, plan, and what hands out the pulses.
 

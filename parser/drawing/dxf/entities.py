@@ -1,4 +1,6 @@
-"""Lines and arcs of ellipses in space, as rows of numbers that any map of a block keeps: what entities are read into.
+"""DXF entities, and the forms that they are read into, each in the coordinates that its file gives it in.
+
+Lines and arcs of ellipses in space, as rows of numbers that any map of a block keeps: what entities are read into.
 
 An arc of an ellipse or a circle is ``center + major·cos t + minor·sin t`` for t from `BEGIN` over `SWEEP`; major and
 minor are conjugate half-axes. A map moves the centre and turns and stretches the half-axes, and t stays.

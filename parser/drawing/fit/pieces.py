@@ -1,4 +1,6 @@
-"""Ellipses and splines as rational Bézier pieces in the plane, cut until each is tame: short of turns, evenly run.
+"""Ellipses and splines as rational Bézier pieces, cut until each is tame; and curves that were fitted to them.
+
+Ellipses and splines as rational Bézier pieces in the plane, cut until each is tame: short of turns, evenly run.
 
 Curves that were fitted, and how far off they are.
 """

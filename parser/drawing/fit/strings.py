@@ -1,4 +1,6 @@
-"""Pieces joined to strings: runs of curve without a corner, and a length along all of them that tells places.
+"""Strings: runs of curve without a corner, and the longest arcs along them.
+
+Pieces joined to strings: runs of curve without a corner, and a length along all of them that tells places.
 
 The longest arcs along strings, one behind the other, over all strings at once.
 

@@ -1,4 +1,6 @@
-"""Curves of a drawing, each drawn once: the border type is `DrawnOnce`.
+"""Curves of a drawing, each drawn once: what runs over others, or so near beside them that it is the same, goes.
+
+Curves of a drawing, each drawn once: the border type is `DrawnOnce`.
 
 Curves that a drawing holds twice, one upon the other.
 

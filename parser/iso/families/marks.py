@@ -1,4 +1,6 @@
-"""Marks: what in a listing tells the family that it was written for (docs/iso.md §6).
+"""Marks: what in a listing tells the family that it was written for, and what no wire machine is told.
+
+Marks: what in a listing tells the family that it was written for (docs/iso.md §6).
 
 Mill code: what in a listing no wire machine is told (docs/iso.md §6).
 """

@@ -1,4 +1,6 @@
-"""I J tested: in which reading, from the start or as places, the radii of the arcs agree (docs/iso.md §4).
+"""Arcs of ISO: in which reading their I J agree, and what is wrong with them (docs/iso.md §4, §5).
+
+I J tested: in which reading, from the start or as places, the radii of the arcs agree (docs/iso.md §4).
 
 Checks of arcs: what makes one, radii at both ends, full circles (docs/iso.md §5).
 """

@@ -1,4 +1,6 @@
-"""Dialect profiles: what the same text means to one family of controllers, as data in ``parser/iso/profiles``.
+"""Dialect profiles: what the same text means to one family of controllers, shipped or of a shop's own.
+
+Dialect profiles: what the same text means to one family of controllers, as data in ``parser/iso/profiles``.
 
 Values, their grades and sources: the files themselves, and docs/iso.md §6.
 

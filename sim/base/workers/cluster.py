@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, Final
 from parser.findings.errors import ClusterError
 
 if TYPE_CHECKING:
-    from sim.base.workers.processes import Pool
+    from sim.base.workers.rounds import Pool
 
 MOST_WAIT_S: Final = 15
 _AHEAD_EACH: Final = 2  # one that a thread does, and one that is there when it is done

@@ -1,16 +1,207 @@
-"""Jobs done in rounds: as many at once as there is room for; after a death, those that were under way one by one.
+"""Jobs done by workers in rounds, who the workers of this machine are, and what makes their results the same.
+
+Who makes a result: what its bytes depend on beside its input. Workers of other machines have to be the same.
+
+Workers of this machine: a process a core.
+
+What a pool of workers is: where jobs are done, how many may be handed over at once, and how a death is told.
+
+Jobs done in rounds: as many at once as there is room for; after a death, those that were under way one by one.
 
 `concurrent.futures` fails all jobs under way where a process dies, and no pool can tell which of them killed it: a job
 that takes all memory may let the system kill another worker. So each of them is done once more while nothing else runs.
 The one at which a worker then dies again is told as `Lost`; the others have their results.
 """
 
+import hashlib
+import multiprocessing
+import os
+import platform
+import signal
+import sys
+import threading
 from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, wait
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import AbstractContextManager, contextmanager
+from functools import cache
+from importlib import metadata, util
 from itertools import islice
-from typing import Any, Final, NamedTuple, TypeVar
+from pathlib import Path
+from types import FrameType
+from typing import Any, Final, NamedTuple, Protocol, TypeVar
 
-from sim.base.workers.processes import Pool
+from parser import __version__
+from parser.findings.errors import ClusterError
+
+_PACKAGES: Final = (
+    "numpy",
+    "numba",
+    "llvmlite",
+    "shapely",
+    "pymunk",
+    "ezdxf",
+    "pygame-ce",
+    "pillow",
+    "jinja2",
+    "click",
+    "rich",
+)
+_OURS: Final = ("parser", "controller", "sim", "drycut")
+_COMPILED: Final = (".pyc", ".pyo")
+
+Maker = tuple[tuple[str, str], ...]
+"""Names with the version of each."""
+
+
+@cache
+def versions() -> Maker:
+    """Versions of drycut, which is first, of Python and of those packages that it uses and that are installed."""
+    installed = ((name, _version(name)) for name in _PACKAGES)
+    return (
+        ("drycut", __version__),
+        ("Python", platform.python_version()),
+        *((name, version) for name, version in installed if version),
+    )
+
+
+def _version(package: str) -> str:
+    """Version of a package; empty where it is not installed, as extras may be left out."""
+    try:
+        return metadata.version(package)
+    except metadata.PackageNotFoundError:
+        return ""
+
+
+def made_by() -> Maker:
+    """What the bytes of a result come from here: versions, our own sources, the system and its kind of processor.
+
+    The sources count by themselves: between two releases a version says nothing of what was changed.
+    """
+    return (*versions(), ("sources", sources()), ("system", f"{platform.system()} {platform.machine()}"))
+
+
+@cache
+def sources() -> str:
+    """Digest of all files of drycut's packages, whatever folder they stand in."""
+    specs = [util.find_spec(name) for name in _OURS]
+    return digest_of(Path(spec.origin).parent for spec in specs if spec is not None and spec.origin is not None)
+
+
+def digest_of(folders: Iterable[Path]) -> str:
+    """Digest of the files of folders, by the names of the folders and their places in these; compiled ones aside."""
+    whole = hashlib.sha256()
+    for folder in folders:
+        for file in sorted(folder.rglob("*")):
+            if file.is_file() and file.suffix not in _COMPILED:
+                name = f"{folder.name}/{file.relative_to(folder).as_posix()}"
+                whole.update(f"{name}\0{hashlib.sha256(file.read_bytes()).hexdigest()}\n".encode())
+    return whole.hexdigest()[:16]
+
+
+def refuse_other_makers(maker: Maker) -> None:
+    """ClusterError where this worker would make other bytes than the one who asks."""
+    theirs = dict(maker)
+    for name, here in made_by():
+        if here != theirs.get(name):
+            raise ClusterError("worker-differs", machine=platform.node(), name=name, here=here, theirs=theirs.get(name))
+
+
+class Pool(Protocol):
+    """Workers that do jobs.
+
+    Attributes
+    ----------
+    died
+        Errors of a future whose worker died. Of the jobs that were under way then nobody knows which one killed it.
+    is_here
+        Whether the workers run on this machine: then they see its files, and are made of the same.
+    """
+
+    died: tuple[type[BaseException], ...]
+    is_here: bool
+
+    def ahead(self) -> int:
+        """How many jobs may be under way at once, so that no worker waits and few results are held."""
+
+    def open(self, *, alone: bool = False) -> AbstractContextManager[Executor]:
+        """The workers, for as long as the context lasts; with `alone` one of them, or as good as one.
+
+        Where the context ends by an error, what is under way is dropped.
+        """
+
+
+_MOST: Final = 61 if sys.platform == "win32" else 1_000_000  # what Windows can wait for (concurrent.futures)
+_AHEAD_EACH: Final = 2  # one that it does, and one that waits for it
+_PATIENCE_S: Final = 1.0  # a process that is told to end clears its files away first
+_MOST_TOLD: Final = 5
+
+
+class Processes:
+    """A `Pool` of processes of this machine, as many as asked for, else as many as it has cores for us."""
+
+    died: tuple[type[BaseException], ...] = (BrokenProcessPool,)
+    is_here = True
+
+    def __init__(self, count: int | None = None) -> None:
+        self._count = min(count or cores(), _MOST)
+
+    def ahead(self) -> int:
+        """Jobs under way at once."""
+        return _AHEAD_EACH * self._count
+
+    @contextmanager
+    def open(self, *, alone: bool = False) -> Iterator[ProcessPoolExecutor]:
+        """The processes; they are told to end at once where the context ends by an error."""
+        executor = ProcessPoolExecutor(1 if alone else self._count, initializer=_ready)
+        try:
+            yield executor
+        except BaseException:
+            executor.shutdown(wait=False, cancel_futures=True)
+            _end_all()
+            raise
+        executor.shutdown()
+
+
+def cores() -> int:
+    """Cores that this process may use."""
+    return len(os.sched_getaffinity(0)) if sys.platform == "linux" else os.cpu_count() or 1
+
+
+def _end_all() -> None:
+    """End the processes that this one has started: each in what it does, then in the job that it has taken already.
+
+    One that does not hear, since it is in a long compiled loop, is killed.
+    """
+    ended = 0
+    while children := multiprocessing.active_children():
+        for child in children:
+            child.terminate() if ended < _MOST_TOLD else child.kill()
+        for child in children:
+            child.join(_PATIENCE_S)
+        ended += 1
+
+
+def _ready() -> None:
+    """Make a worker end when it should: Ctrl-C reaches all processes of a terminal, and the first one ends the others.
+
+    A worker that is told to end clears its files away. One whose first process was killed would wait for jobs for ever.
+    """
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGTERM, _end)
+    threading.Thread(target=_end_with_the_first, daemon=True).start()
+
+
+def _end(number: int, frame: FrameType | None) -> None:
+    sys.exit(128 + number)
+
+
+def _end_with_the_first() -> None:
+    first = multiprocessing.parent_process()
+    if first is not None:
+        first.join()
+        os._exit(1)
+
 
 Job = TypeVar("Job")
 Result = TypeVar("Result")

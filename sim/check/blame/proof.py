@@ -24,8 +24,7 @@ from parser.program import Program
 from parser.shape.contours import CLOSED_WITHIN_UM, Contour
 from parser.text.source import Field
 from sim.check.blame.settle import Again, WrongWord
-from sim.check.closures import OpenContour, Suspected, suspect_finding
-from sim.check.count_axes import WrongAxis
+from sim.check.closures import OpenContour, Suspected, WrongAxis, suspect_finding
 from sim.check.geometry import ReversedArc
 
 MOST_TRIALS = 24

@@ -20,8 +20,7 @@ from parser.geometry.curves import Bools, Curves, Ints, joined
 from parser.program import Program
 from parser.text.source import Field
 from sim.check.compensation.rounds import CompensatedRound, contour_of, parts_of
-from sim.check.offset import gouge_finding, loop_finding, uncut_finding
-from sim.check.pass_over_round import PassOverRound, beside_round, rows_beside
+from sim.check.offset import PassOverRound, beside_round, gouge_finding, loop_finding, rows_beside, uncut_finding
 
 
 class CompensatedStretch(NamedTuple):

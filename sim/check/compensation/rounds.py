@@ -23,7 +23,7 @@ from parser.geometry.near import nearest_um
 from parser.shape.contours import CLOSED_WITHIN_UM
 from parser.shape.loops import find_loops
 from parser.toolpath import Toolpath
-from sim.check.pass_over_round import Distances
+from sim.check.offset import Distances
 
 _ON_UM = CLOSED_WITHIN_UM  # whole µm, and arcs that were drawn anew for a later pass
 _MOST = 0.5  # of a contour that runs along another

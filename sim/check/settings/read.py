@@ -1,8 +1,12 @@
-"""A settings file, read strictly: ``drycut.toml``, or ``[tool.drycut]`` of ``pyproject.toml``.
+"""A settings file, read strictly: ``drycut.toml``, or ``[tool.drycut]`` of ``pyproject.toml``; and its JSON schema.
+
+A settings file, read strictly: ``drycut.toml``, or ``[tool.drycut]`` of ``pyproject.toml``.
 
 Patterns for paths, with the meaning that they have in the settings of ruff: ``*`` goes past slashes.
 
 A pattern is held against the name of a file or folder alone, and against its path below the folder of the pattern.
+
+JSON schema of ``drycut.toml``, for editors that complete and check TOML.
 """
 
 import re
@@ -11,19 +15,22 @@ from dataclasses import dataclass, field, replace
 from fnmatch import translate
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple, get_args
+from typing import TYPE_CHECKING, Any, Final, NamedTuple, get_args
 
 from parser.dialect.reader import ChosenDialect, Marks, OwnDialect
 from parser.findings.codes import CODES
 from parser.findings.errors import SettingsError
-from parser.program import block_words, own_marks
+from parser.program import block_words, own_dialect_schema, own_marks
 from sim.check.result import FailOn
 from sim.check.settings.model import WIRE_LENGTHS, CheckSettings
 from sim.setup.dialect import READ_WITH, REGISTERS, UNIT, chosen_dialect, own_dialects_of
-from sim.setup.toml.reader import load_toml, pair, refuse_unknown, section, text, truth
+from sim.setup.key_tables import DRAFT
+from sim.setup.toml.kinds import pair_schema
+from sim.setup.toml.reader import PLACE_MM, load_toml, pair, refuse_unknown, section, text, truth
 
 if TYPE_CHECKING:
     from sim.setup.machine.machine import Machine
+
 
 _PIECE = re.compile(r"(?:(?<=/)|\A)\*\*/|\*+|\[!?\]?[^\]]*\]|.", re.DOTALL)
 _CLOSED = 2
@@ -285,3 +292,52 @@ def _words(content: Mapping[str, Any], key: str, where: str) -> tuple[str, ...]:
 def _first_last() -> str:
     codes = sorted(CODES)
     return f"{codes[0]} to {codes[-1]}"
+
+
+_TEXT: Final = {"type": "string", "minLength": 1}
+_CODES: Final = {"type": "array", "items": {"type": "string"}}
+_MARKS: Final = {"type": "array", "items": {"type": "string", "pattern": "^[A-Za-z]{0,4}$"}}
+
+
+def settings_schema() -> dict[str, Any]:
+    """JSON schema of ``drycut.toml``, which is that of ``[tool.drycut]`` in ``pyproject.toml``, too."""
+    wire = _table({key.name: key.schema for key in WIRE_LENGTHS.values()})
+    keys: dict[str, tuple[str, dict[str, Any]]] = {
+        "root": ("the search for settings ends here", {"type": "boolean"}),
+        "machine": ("name of a machine, or its .toml file", {"type": "string"}),
+        "machines": ("folder of machine files, whose names count before those that come with drycut", _TEXT),
+        "start_mm": ("place of the program's start on the table", pair_schema(PLACE_MM)),
+        "open": ("contours may stay open", {"type": "boolean"}),
+        "select": ("codes of findings that are shown, or their beginnings", _CODES),
+        "ignore": ("codes of findings that are not shown, or their beginnings", _CODES),
+        "fail_on": ("the mildest that fails: errors; also incomplete checks; also warnings", {"enum": list(FAIL_ON)}),
+        "exclude": ("patterns of files that are left out where a folder is looked through", _list_of(_TEXT)),
+        "include": ("patterns of files that are programs whatever their names end in", _list_of(_TEXT)),
+        "baseline": ("file of known findings and incomplete checks", _TEXT),
+        "dialect": ("dialect of ISO programs, also one of those below, or its .toml file", _TEXT),
+        **{key.name: (f"{key.name} of ISO programs", key.schema) for key in (UNIT, REGISTERS)},
+        "end_marks": ("more words for the end of a program", _MARKS),
+        "pause_marks": ("more words for a pause in a program", _MARKS),
+        "wire": (
+            "wire that corners and offsets are held against",
+            wire,
+        ),
+        "dialects": (
+            "dialects of a shop's own by their names, or their files",
+            {"type": "object", "additionalProperties": {"oneOf": [_TEXT, own_dialect_schema()]}},
+        ),
+        "per_file_ignores": (
+            "codes that are not shown of the files of a pattern",
+            {"type": "object", "additionalProperties": _CODES},
+        ),
+    }
+    properties = {name: {"description": meaning, **schema} for name, (meaning, schema) in keys.items()}
+    return {"$schema": DRAFT, "title": "drycut.toml (docs/check.md)", **_table(properties)}
+
+
+def _table(properties: dict[str, Any]) -> dict[str, Any]:
+    return {"type": "object", "additionalProperties": False, "properties": properties}
+
+
+def _list_of(entry: dict[str, Any]) -> dict[str, Any]:
+    return {"type": "array", "items": entry}

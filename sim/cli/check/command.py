@@ -1,25 +1,119 @@
-"""``drycut check``."""
+"""``drycut check``, with its options in the groups in which its help lists them.
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+``drycut check``.
+
+Options of ``drycut check``, in the groups in which its help lists them.
+"""
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 import click
 
 from parser.findings.errors import Message
-from sim.cli.check.options import check_options
+from sim.check.settings.read import FAIL_ON
+from sim.cli.check.outputs import Output
+from sim.cli.options import UNIT, OwnOrNamed, RegisterValue, length_options
 from sim.cli.spoken import Spoken, spoken
-from sim.cli.spoken.completing import offer_files
+from sim.cli.spoken.values import FilePath, offer_files, offer_machines
 from sim.cli.spread import Spread, pool_of, spread_options
+from sim.setup.wire import DIAMETER, SPARK_GAP
+from sim.show.findings import FORMATS
 
 if TYPE_CHECKING:
     from parser.findings.catalogue import Language
     from sim.check.file_check import Job
     from sim.check.result import CheckResult
-    from sim.cli.check.baselines import Ledger
     from sim.cli.check.jobs import CheckOptions, Jobs
-    from sim.cli.check.outputs import Output
-    from sim.show.findings.options import Options
+    from sim.cli.check.outputs import Ledger
+    from sim.show.findings.wording import Options
+
+
+Command = TypeVar("Command", bound=Callable[..., Any])
+
+
+class OutputType(click.ParamType):  # type: ignore[type-arg]  # generic in newer clicks alone
+    """``sarif`` or ``sarif=check.sarif``: an `Output`."""
+
+    name = "output"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Output:
+        """The output; a format that there is not, or no name of a file behind ``=``, is bad use."""
+        if isinstance(value, Output):
+            return value
+        form, into, file = value.partition("=")
+        if form not in FORMATS:
+            self.fail(Message("not-one-of", found=form, known=", ".join(FORMATS)), param, ctx)
+        if into and not file:
+            self.fail(Message("lacks-a-file-name", found=value), param, ctx)
+        return Output(form, Path(file) if file else None)
+
+
+_FILE = FilePath(path_type=Path, dir_okay=False)
+_OUTPUT = (
+    click.option(
+        "--format",
+        "formats",
+        type=OutputType(),
+        multiple=True,
+        metavar="FORMAT[=FILE]",
+    ),
+    click.option("--output-file", "-o", type=FilePath(path_type=Path), metavar="FILE"),
+    click.option("--statistics", is_flag=True),
+    click.option("--quiet", is_flag=True),
+)
+_SELECTION = (
+    click.option("--select", metavar="CODES"),
+    click.option("--ignore", metavar="CODES"),
+    click.option("--fail-on", type=click.Choice(FAIL_ON)),
+    click.option("--exit-zero", is_flag=True),
+    click.option(
+        "--exclude",
+        multiple=True,
+        metavar="PATTERN",
+    ),
+    click.option(
+        "--include",
+        multiple=True,
+        metavar="PATTERN",
+    ),
+    click.option("--config", type=_FILE, metavar="FILE"),
+    click.option("--no-config", is_flag=True),
+    click.option("--baseline", type=_FILE, metavar="FILE"),
+    click.option("--write-baseline", type=_FILE, metavar="FILE"),
+)
+_LISTS = (
+    click.option("--show-files", is_flag=True),
+    click.option("--show-settings", is_flag=True),
+)
+_MENDS = (
+    click.option("--fix", is_flag=True),
+    click.option("--diff", is_flag=True),
+)
+_WATCH = (click.option("--watch", is_flag=True),)
+_DEMANDS = (
+    click.option("--machine", metavar="NAME|FILE", shell_complete=offer_machines),
+    *length_options((DIAMETER, SPARK_GAP)),
+    click.option("--open", "may_stay_open", is_flag=True),
+)
+_ISO = (
+    click.option("--dialect", type=OwnOrNamed(is_any=True)),
+    UNIT,
+    click.option(
+        "--offset",
+        type=RegisterValue(),
+        multiple=True,
+    ),
+)
+
+
+def check_options(command: Command) -> Command:
+    """Give a command the options of ``drycut check``."""
+    for option in reversed((*_OUTPUT, *_SELECTION, *_LISTS, *_MENDS, *_WATCH, *_DEMANDS, *_ISO)):
+        command = option(command)
+    return command
+
 
 _MODES = ("fix", "diff", "watch", "show_files", "show_settings")
 """Parameters of what is done in place of a check, or with it; one at a time."""
@@ -58,7 +152,7 @@ def check(  # noqa: PLR0913 - click hands over each option by its name
     from sim.check.own_checks import load_own_checks
     from sim.cli.check.jobs import check_options_of, filter_of
     from sim.cli.check.outputs import outputs_of
-    from sim.show.findings.options import Options
+    from sim.show.findings.wording import Options
 
     load_own_checks()  # before any code is read, or any result of another process is written
     mode = _mode(values)
@@ -77,9 +171,9 @@ def _done(mode: str, work: "_Work", found: "Jobs") -> int:
     """Show, mend or check the files; the exit code."""
     language = work.style.language
     if mode in ("--show-files", "--show-settings"):
-        from sim.cli.check import shown
+        from sim.cli.check.jobs import show_files, show_settings
 
-        (shown.show_files if mode == "--show-files" else shown.show_settings)(found, language)
+        (show_files if mode == "--show-files" else show_settings)(found, language)
         return 0
     if mode == "--diff":
         from sim.cli.check.mends import show_diffs
@@ -105,7 +199,7 @@ def _exit(code: int, *, is_zero: bool) -> click.exceptions.Exit:
 
 
 def _ledger(options: "CheckOptions") -> "Ledger":
-    from sim.cli.check.baselines import AgainstBaseline, Written
+    from sim.cli.check.outputs import AgainstBaseline, Written
 
     return Written(options.write_baseline) if options.write_baseline else AgainstBaseline()
 
@@ -165,7 +259,7 @@ def _check(work: _Work, found: "Jobs") -> int:
     write(outcome.watched(ledger.watched(jobs, _results(jobs, work.spread))), work.outputs, work.style)
     printer.write(ledger.closed(language), err=True)
     if found.passed_over and not work.style.quiet:
-        from sim.cli.check.shown import passed_over_text
+        from sim.cli.check.jobs import passed_over_text
 
         printer.say(passed_over_text(found.passed_over, language), err=True)
     return outcome.exit_code(language)

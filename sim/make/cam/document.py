@@ -15,7 +15,7 @@ from parser.findings.catalogue import Language, Remark, remark_text, texts
 from parser.findings.findings import Finding
 from parser.shape.contours import runs
 from parser.toolpath import Toolpath
-from sim.base.rounded import known, place, rounded
+from sim.base.units import known, place, rounded
 from sim.make.cam.document_model import (
     DrawingFileEntry,
     EntityEntry,
@@ -32,7 +32,7 @@ from sim.make.cam.document_model import (
 )
 from sim.make.cam.maker import MadeProgram, NotMade
 from sim.make.cam.model import CutPlan, FigureCut, PassCut, Refusal
-from sim.make.cam.proof.target import Fault, Proof
+from sim.make.cam.target import Fault, Proof
 from sim.run.dryrun import DryRun
 from sim.setup.wire import Wire
 

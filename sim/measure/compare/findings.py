@@ -20,11 +20,10 @@ from parser.text.encoding import printable
 from parser.toolpath import Point
 from parser.units import mm
 from sim.cut.remains import Remains
-from sim.measure.compare.as_cut import edge_as_cut
-from sim.measure.compare.compare import compare
-from sim.measure.compare.compared_program import compare_program
+from sim.measure.compare.compare import compare, compare_program
 from sim.measure.compare.nearest import indexed, nearest
 from sim.measure.compare.result import Comparison, CornerPlace, FitRequest, WorstPlace
+from sim.measure.compare.rings import edge_as_cut
 from sim.setup.part import DrawingTarget
 
 _MOST_PLACES = 10

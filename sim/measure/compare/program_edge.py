@@ -22,8 +22,8 @@ from parser.geometry.distance import feet
 from parser.toolpath import Point, Toolpath
 from sim.cut.kerf.nominal import nominal_region
 from sim.cut.regions import cut_by_blocks, union_all
-from sim.measure.compare.edge import Edge, LeadGouge
 from sim.measure.compare.nearest import Index, indexed, nearest
+from sim.measure.compare.result import Edge, LeadGouge
 from sim.measure.compare.rings import PathEdge, PathLoop, PathPass, Rings, orientation, polygon, rings_of
 
 _LEAST_UM = 1.0  # shallower, it is the rounding of the program's ends

@@ -1,17 +1,79 @@
-"""What a comparison of a cut edge with a drawing says."""
+"""What a comparison says: the cut edge, how far off it is and where, and the strips between it and the drawing.
 
-from dataclasses import dataclass
-from typing import NamedTuple
+The cut edge: where the part ends once the program is cut, curve by curve with the blocks that make it.
+
+What a comparison of a cut edge with a drawing says.
+
+The strips between the edge of a cut and its drawing, where they lie farther apart than is allowed.
+"""
+
+from dataclasses import dataclass, replace
+from typing import Final, NamedTuple
+
+import numpy as np
 
 from parser.drawing.model import Drawing
 from parser.findings.catalogue import Remark
-from parser.geometry.curves import Curves, Floats
+from parser.geometry.along import places
+from parser.geometry.curves import Curves, Floats, Ints
+from parser.geometry.distance import feet
 from parser.toolpath import Point
 from sim.measure.compare.directed import Directed
-from sim.measure.compare.edge import Edge, LeadGouge
-from sim.measure.compare.starts import Placement
+from sim.measure.compare.nearest import indexed, nearest
+from sim.measure.compare.starts import Placement, laid_loops
 from sim.measure.compare.unreachable import Reachable, Unreachable
 from sim.setup.part import SharpCorners
+
+
+class LeadGouge(NamedTuple):
+    """A lead-in or lead-out that cuts into the part: its block, where the wire stands deepest, and how deep it cuts."""
+
+    block: int
+    where_um: Point
+    depth_um: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Edge:
+    """The edge of the part, n curves.
+
+    Attributes
+    ----------
+    curves
+        Lines and arcs in the program's coordinates; polylines where the edge is one as cut.
+    block
+        (n,) number of the block that cuts each, from 1.
+    loop
+        (n,) which loop each belongs to, from 0.
+    part_side
+        (n,) +1 with the part on the left of the curve, −1 on its right, 0 where that is not known.
+    offset_um
+        How far the wire cuts past its path, where the edge is made of that; None of an edge as cut.
+    reach_um
+        How far the wire cuts past its centre: what no inside corner can be sharper than; 0 where any can.
+    gouges
+        Where lead-ins and lead-outs cut into the part beside it.
+    notes
+        What was assumed, and what has no edge.
+    """
+
+    curves: Curves
+    block: Ints
+    loop: Ints
+    part_side: Ints
+    offset_um: float | None = None
+    reach_um: float = 0.0
+    gouges: tuple[LeadGouge, ...] = ()
+    notes: tuple[Remark, ...] = ()
+
+    def on(self, loops: Ints) -> "Edge":
+        """Some of its loops, whose curves stand together, numbered anew."""
+        first, past = (np.searchsorted(self.loop, loops, side=side) for side in ("left", "right"))
+        loop = np.repeat(np.arange(len(loops)), past - first)
+        rows = np.arange(len(loop)) + (first - np.cumsum(past - first) + past - first)[loop]
+        return replace(
+            self, curves=self.curves.picked(rows), block=self.block[rows], loop=loop, part_side=self.part_side[rows]
+        )
 
 
 class FitRequest(NamedTuple):
@@ -150,3 +212,51 @@ class WorstPlace(NamedTuple):
     block: int
     entity: int
     measured_from: str
+
+
+_PARTS: Final = 64
+"""Of a curve of the edge, at most."""
+_PART_UM: Final = 250.0
+
+
+class Strips(NamedTuple):
+    """Strips between an edge and a drawing, in the program's coordinates; one for each curve of the edge that is off.
+
+    Attributes
+    ----------
+    drawn
+        The drawing's loops as they are laid on the part.
+    edge_um, foot_um
+        (k, 2) places along the edge, and the nearest ones of what it was held against.
+    strip
+        (k,) which strip each place is of, rising.
+    side
+        (k,) −1 where the part is gouged, +1 where material is left.
+    """
+
+    drawn: tuple[Curves, ...]
+    edge_um: Floats
+    foot_um: Floats
+    strip: Ints
+    side: Ints
+
+    @property
+    def widest_um(self) -> float:
+        """Width of the widest strip."""
+        return float(np.hypot(*(self.edge_um - self.foot_um).T).max())
+
+
+def strips_of(comparison: Comparison) -> Strips | None:
+    """The strips of a comparison; None where the edge is nowhere off, or it is not known to which side."""
+    found, edge = comparison.edge_to_drawing, comparison.edge.curves
+    is_off = (found.max_um > comparison.request.tolerance_um) & (comparison.edge_side != 0.0)
+    rows = np.flatnonzero(is_off)
+    if not len(rows):
+        return None
+    parts = np.clip(np.ceil(edge.length_um[rows] / _PART_UM), 2, _PARTS).astype(np.int64)
+    strip = np.repeat(np.arange(len(rows)), parts + 1)
+    number = np.arange(len(strip)) - np.searchsorted(strip, strip)
+    place = places(edge, rows[strip], number / parts[strip])
+    foot = feet(comparison.laid, nearest(indexed(comparison.laid), place).row, place).place_um
+    side = comparison.edge_side[rows].astype(np.int64)[strip]
+    return Strips(tuple(laid_loops(comparison.drawing, comparison.placement)), place, foot, strip, side)

@@ -17,10 +17,21 @@ from parser.geometry.curves import Floats
 from parser.program import parse_program
 from parser.units import from_mm, mm
 from sim.base.progress import Progress
-from sim.base.rounded import known, place, rounded
-from sim.run.ballbar.figures import NAMES, SENSES, Direction, Figures, MeasuredTurn, Sense, circularity, figures_of
+from sim.base.units import known, place, rounded
+from sim.run.ballbar.figures import (
+    NAMES,
+    SENSES,
+    DeviationParts,
+    Direction,
+    Figures,
+    MeasuredTurn,
+    Reversal,
+    Sense,
+    circularity,
+    figures_of,
+    parts_of,
+)
 from sim.run.ballbar.model import BallbarDocument, FiguresEntry, LossEntry, PartsEntry, ReversalEntry, SenseEntry
-from sim.run.ballbar.parts import DeviationParts, Reversal, parts_of
 from sim.setup.machine.machine import Machine
 from sim.setup.toml.reader import Bound, number
 from sim.table.motion import Motion, TableRun, driven, motion_of

@@ -21,17 +21,24 @@ from parser.findings.findings import Finding
 from parser.geometry.curves import CurveKind, Floats
 from parser.shape.contours import Contour
 from parser.toolpath import Toolpath
-from sim.base.rounded import DEG_DIGITS, column, moment, numbers, place, points, rounded, rows
+from sim.base.units import (
+    DEG_DIGITS,
+    column,
+    moment,
+    numbers,
+    place,
+    points,
+    rounded,
+    rows,
+)
 from sim.check.result import Coverage
 from sim.measure.compare.result import Comparison
-from sim.measure.passes.figures import PassFigures
-from sim.measure.passes.stock import Stock
+from sim.measure.passes import PassFigures, Stock
 from sim.measure.threadings import Threading, threadings
 from sim.run.dryrun import DryRun, assumptions_of
 from sim.run.findings import to_check, verdict
-from sim.run.report.drawing import comparison_document
-from sim.run.report.drawing_model import ComparisonEntry
-from sim.run.report.figures import deviation_entries, ended_entry, limit_entry, loss_entry, offset_entry
+from sim.run.report.drawing import ComparisonEntry, comparison_document
+from sim.run.report.figures import deviation_entries, ended_entry, limit_entry, loss_entry, offset_entry, remains_entry
 from sim.run.report.model import (
     AssumptionsEntry,
     BlockEntry,
@@ -46,7 +53,6 @@ from sim.run.report.model import (
     TableEntry,
     WireEntry,
 )
-from sim.run.report.remains import remains_entry
 from sim.run.report.run_model import ContourEntry, InterpolatorEntry, PassEntry, StockEntry, ThreadPointEntry
 from sim.setup.scenario import Scenario
 

@@ -28,10 +28,10 @@ from parser.documents import (
     of_length,
     one_of,
 )
-from sim.run.report.card_model import CardEntry
 from sim.run.report.cut_model import RemainsEntry
-from sim.run.report.drawing_model import ComparisonEntry
+from sim.run.report.drawing import ComparisonEntry
 from sim.run.report.run_model import (
+    CardEntry,
     ContourEntry,
     DeviationsEntry,
     EndedEntry,

@@ -29,8 +29,7 @@ from parser.findings.catalogue import Language, texts
 from parser.findings.codes import Severity
 from parser.findings.findings import Edit, Finding
 from sim.check.file_check import as_typed
-from sim.serve.editor.places import Places, Text
-from sim.serve.editor.shown import hover_of, layout_of, outline_of
+from sim.serve.editor.shown import Places, Text, hover_of, layout_of, outline_of
 from sim.show.texts import Words
 
 SOURCE: Final = "drycut"

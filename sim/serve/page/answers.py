@@ -15,11 +15,11 @@ from parser.shape.contours import find_contours
 from parser.shape.passes import find_passes, leads_of
 from parser.text.encoding import decode_text, encode_text, printable
 from parser.text.lines import LINE_END
-from sim.base.rounded import numbers, rounded
+from sim.base.units import numbers, rounded
 from sim.check.file_check import as_typed
 from sim.check.result import CheckResult
 from sim.serve.page.form import USUAL, Chosen
-from sim.show.replay.curve_columns import exact_columns
+from sim.show.replay.tape import exact_columns
 from sim.show.texts import bilingual
 from sim.show.texts.phrases import lasting
 

@@ -22,11 +22,19 @@ from sim.serve.page.answers import ReadFile, answer, file_of, read_file
 from sim.serve.page.drawings import Drawings, is_drawing
 from sim.serve.page.form import Chosen, chosen
 from sim.serve.page.life import Life
-from sim.serve.page.programs import Programs
-from sim.serve.page.row import row_or_why
-from sim.serve.page.run_requests import MISSING, NOTHING, BadRequestError, Drawn, Running, Work, guarded, name_of, told
-from sim.serve.page.runs import Runs
-from sim.serve.page.starts import STARTS, start
+from sim.serve.page.programs import STARTS, Programs, row_or_why, start
+from sim.serve.page.runs import (
+    MISSING,
+    NOTHING,
+    BadRequestError,
+    Drawn,
+    Running,
+    Runs,
+    Work,
+    guarded,
+    name_of,
+    told,
+)
 from sim.show.open_page.page import open_page
 
 _AFTER_FIRST_S: Final = 1.0

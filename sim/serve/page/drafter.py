@@ -17,12 +17,11 @@ from parser.program import load_program, moving
 from parser.text.encoding import printable
 from parser.toolpath import Toolpath
 from parser.units import from_mm
-from sim.make.cam.maker import MadeProgram, made_program, remarked
-from sim.make.cam.request import wanted_of
-from sim.measure.compare.compared_program import compare_program
+from sim.make.cam.maker import MadeProgram, made_program, remarked, wanted_of
+from sim.measure.compare.compare import compare_program
 from sim.measure.compare.result import FitRequest
 from sim.measure.compare.starts import IN_PLACE, Placement
-from sim.run.offsetting import as_run
+from sim.run.prepare import as_run
 from sim.run.recording import stages_of
 from sim.serve.page.answers import read_file
 from sim.serve.page.child import PageRequest, do, telling
@@ -33,9 +32,8 @@ from sim.setup.part import DrawingTarget
 from sim.setup.program_section import OR_NONE_MM, OVERCUT_MM, refuse_odd
 from sim.setup.scenario import Scenario
 from sim.show.refusals import why_refused
-from sim.show.replay.curve_columns import drawing_columns
-from sim.show.terminal.program import told_lines
-from sim.show.terminal.proof import against
+from sim.show.replay.tape import drawing_columns
+from sim.show.terminal.program import against, told_lines
 from sim.show.texts import Words
 
 _WIDE: Final = 100_000

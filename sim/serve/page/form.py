@@ -12,13 +12,21 @@ from parser.text.encoding import narrow
 from parser.units import from_mm
 from sim.serve.page.child import PageRequest
 from sim.setup.machine.machine import Machine, load_machine, machine_names
-from sim.setup.part import OFFSET_MM, PASSES, SIDES, DrawingTarget, Offset, OffsetPass
+from sim.setup.part import (
+    DEFAULT_THICKNESS_MM,
+    OFFSET_MM,
+    PASSES,
+    SIDES,
+    THICKNESS_MM,
+    DrawingTarget,
+    Offset,
+    OffsetPass,
+)
 from sim.setup.scenario import DEFAULT_MACHINE, Scenario, load_scenario
 from sim.setup.settable import FIELDS, with_settings
 from sim.setup.toml.keys import Key
 from sim.setup.toml.kinds import Number
 from sim.setup.toml.reader import Bound, number
-from sim.setup.work import DEFAULT_THICKNESS_MM, THICKNESS_MM
 from sim.show.texts.phrases import machine_name
 
 _NAMES: Final = {

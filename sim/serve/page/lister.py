@@ -9,10 +9,9 @@ from typing import Any, Final
 
 from parser.files import read_bytes
 from parser.findings.errors import FileUnreadableError, in_both
-from sim.base.workers.processes import Processes
-from sim.base.workers.rounds import DIED, Lost, in_order, results
+from sim.base.workers.rounds import DIED, Lost, Processes, in_order, results
 from sim.serve.page.child import read_request
-from sim.serve.page.row import refused, row_or_why
+from sim.serve.page.programs import refused, row_or_why
 from sim.show.terminal.printer import write
 from sim.show.texts.phrases import same
 

@@ -1,19 +1,87 @@
-"""The programs that the page may open, by number: the one of the start, or those that were found in a folder.
+"""The programs that the page may open, by number, and as rows of a list; and what an empty page offers.
+
+A program as a list of them shows it: its verdict, what is found, how large it is, and its path, small.
+
+The programs that the page may open, by number: the one of the start, or those that were found in a folder.
 
 No request names a path: a number stands for the file that was found under it, and none is given twice.
+
+What a page that holds nothing offers to begin with: a sound program, one with a fault, and a drawing.
 """
 
 import asyncio
+import traceback
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, Final, NamedTuple
 
 from parser.files import read_bytes
-from parser.findings.catalogue import Bilingual
-from parser.findings.errors import FileUnreadableError
+from parser.findings.catalogue import LANGUAGES, Bilingual, page, texts
+from parser.findings.errors import DrycutError, FileUnreadableError, ProgramError
+from parser.findings.findings import Finding, counted
 from parser.text.encoding import printable
+from sim.check.file_check import as_typed
 from sim.check.files import find_files
+from sim.jobs.examples import example
+from sim.serve.page.answers import read_file, size_of
 from sim.serve.page.child import Child, begun
+from sim.show.index_page.page import thumbnail
+from sim.show.texts.phrases import same
+
+
+def row_of(name: str, file: Path | None, data: bytes) -> dict[str, Any]:
+    """The row of a file's bytes, whatever they hold; `file` is where they stand, None where nobody knows.
+
+    Lengths are µm. ``verdict`` is pass, to-check, incomplete, fail, or refused where there is no program.
+    """
+    try:
+        read = read_file(data)
+    except ProgramError as error:
+        return _row(name, "refused", (error.finding,), _message(error.finding))
+    program, result = (found := as_typed(name, file, read.text)).program, found.result
+    if result.unreadable:
+        return _row(name, "refused", result.findings, _message(result.findings[0]))
+    size = size_of(result)
+    row = _row(name, result.outcome, result.findings)
+    if program is not None and len(program.toolpath) and size is not None:
+        row |= {"picture": thumbnail(program.toolpath), "cut_um": size["cut_um"], "box_um": size["box_um"]}
+    return row
+
+
+def row_or_why(name: str, file: Path | None, data: bytes) -> dict[str, Any]:
+    """As `row_of`; where drycut itself fails at it, the row says so."""
+    try:
+        return row_of(name, file, data)
+    except DrycutError as error:
+        return refused(name, error.in_both())
+    except Exception:
+        return _row(name, "fault", message=same(traceback.format_exc().strip().splitlines()[-1]))
+
+
+def refused(name: str, why: Bilingual) -> dict[str, Any]:
+    """The row of a file that cannot be read."""
+    return _row(name, "refused", message=why)
+
+
+def _message(finding: Finding) -> Bilingual:
+    return Bilingual(*(texts(finding, language).message for language in LANGUAGES))
+
+
+def _row(name: str, verdict: str, findings: Sequence[Finding] = (), message: Bilingual | None = None) -> dict[str, Any]:
+    counts = counted(findings)
+    name_text = printable(name)
+    return {
+        "file": name_text,
+        "title": name_text,
+        "verdict": verdict,
+        "message": None if message is None else {"en": printable(message.en), "zh": printable(message.zh)},
+        "findings": [{"code": of.code, "severity": str(of.severity), "count": of.n} for of in counts],
+        "titles": {of.code: {language: page(of.code, language).title for language in LANGUAGES} for of in counts},
+        "picture": "",
+        "cut_um": None,
+        "box_um": None,
+    }
+
 
 MOST: Final = 10_000
 """Programs of a folder that are shown."""
@@ -135,3 +203,41 @@ class Programs:
         rows = self._rows
         async for row in child.tells(named_files):
             rows.append({**row, "number": str(self._first + len(rows))})
+
+
+_SOUND: Final = "keyhole"
+_DRAWN: Final = "plate"
+
+
+class Start(NamedTuple):
+    """A file to begin with: its name, and its bytes."""
+
+    name: str
+    data: bytes
+
+
+def start(name: str) -> Start:
+    """What to begin with: ``sound``, ``broken`` or ``drawing``. KeyError for another name."""
+    return _STARTS[name]()
+
+
+def _sound() -> Start:
+    program = example(_SOUND).program
+    return Start(f"{_SOUND}{program.suffix}", read_bytes(program))
+
+
+def _broken() -> Start:
+    """The same program with one letter wrong, which is certainly mended."""
+    file = Path(__file__).with_name("broken").with_suffix(example(_SOUND).program.suffix)
+    return Start(file.name, read_bytes(file))
+
+
+def _drawing() -> Start:
+    drawing = example(_DRAWN).drawing
+    assert drawing is not None  # noqa: S101 - the example has one
+    return Start(f"{_DRAWN}.dxf", read_bytes(drawing.file))
+
+
+_STARTS: Final = {"sound": _sound, "broken": _broken, "drawing": _drawing}
+STARTS: Final = tuple(_STARTS)
+"""Their names, in the order in which they are offered."""

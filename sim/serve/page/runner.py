@@ -17,8 +17,7 @@ from parser.program import Program, load_program, moving
 from sim.base.progress import Progress, silent
 from sim.check.file_check import settings_near
 from sim.check.settings import CheckSettings
-from sim.jobs.drills_into import drills_into
-from sim.jobs.run_into import run_into, stages_of_files
+from sim.jobs.run_into import drills_into, run_into, stages_of_files
 from sim.run.findings import outcome
 from sim.run.recording import Recording, recorded, stages_of
 from sim.run.running import dry_run
@@ -28,9 +27,8 @@ from sim.serve.page.form import number_of, scenario_of
 from sim.setup.scenario import Scenario, load_scenario
 from sim.setup.toml.reader import Bound
 from sim.show.draw.sheet import SIZES_PX
-from sim.show.film.film import format_of, write_film
 from sim.show.film.screen import Look
-from sim.show.film.writers import FORMATS
+from sim.show.film.writers import FORMATS, format_of, write_film
 from sim.show.pictures.files import PictureFiles, write_pictures
 from sim.show.pictures.gallery import PICTURES, subject_of
 from sim.show.texts.phrases import machine_name

@@ -8,8 +8,15 @@ from controller.host.entries import Interpolation
 from controller.motion.limits import Feeds
 from parser.findings.errors import SettingsError
 from parser.units import from_mm
-from sim.setup.machine.controller_model import CONTROLLER, ControllerModel, read_controller
-from sim.setup.machine.table_model import MOTOR, TABLE, TableModel, read_table
+from sim.setup.machine.table_model import (
+    CONTROLLER,
+    MOTOR,
+    TABLE,
+    ControllerModel,
+    TableModel,
+    read_controller,
+    read_table,
+)
 from sim.setup.obstacles import ARM, Outline
 from sim.setup.toml.keys import Key, Section, WrittenSection
 from sim.setup.toml.kinds import Keys, Number, Text

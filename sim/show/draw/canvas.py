@@ -12,7 +12,7 @@ import numpy as np
 
 from parser.geometry.curves import Floats
 from sim.show.draw.layout import Box
-from sim.show.draw.paints import Paint
+from sim.show.draw.style import Paint
 
 
 class Canvas(Protocol):

@@ -14,7 +14,7 @@ from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.layout import Box, Page, mm_text, nice_below, ticks
 from sim.show.draw.letters import Letters
-from sim.show.draw.paints import Paint
+from sim.show.draw.style import Paint
 
 
 def elide(canvas: Canvas, text: str, size: float, width: float) -> str:

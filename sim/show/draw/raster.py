@@ -16,8 +16,8 @@ from parser.geometry.curves import Floats
 from sim.show.draw.canvas import arrow_head, dashes
 from sim.show.draw.layout import Box
 from sim.show.draw.letters import Letters
-from sim.show.draw.paints import LIGHT, Paint, Theme
 from sim.show.draw.silent_pygame import pygame
+from sim.show.draw.style import LIGHT, Paint, Theme
 
 FINEST: Final = 3
 COARSER_FROM_PX: Final = 2400  # an A3 page at 300 dpi, drawn three times as large, would take 470 MB

@@ -8,8 +8,8 @@ from parser.findings.catalogue import Language
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.layout import unit_of
-from sim.show.draw.paints import LIGHT, Theme
 from sim.show.draw.raster import Raster
+from sim.show.draw.style import LIGHT, Theme
 from sim.show.draw.svg import Svg
 from sim.show.texts import Words
 

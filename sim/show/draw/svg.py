@@ -1,4 +1,9 @@
-"""Pictures as SVG, for documents and pages: lines stay lines at any size."""
+"""Pictures as SVG, for documents and pages: lines stay lines at any size, and paths stay short.
+
+Lines as data of an SVG path: whole and half units, by differences, so that they stay short.
+
+Pictures as SVG, for documents and pages: lines stay lines at any size.
+"""
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -9,10 +14,23 @@ import numpy as np
 
 from parser.geometry.curves import Floats
 from sim.show.draw.canvas import arrow_head, dashes
+from sim.show.draw.flatten import CHORD_PX, simplify
 from sim.show.draw.layout import Box
 from sim.show.draw.letters import Letters
-from sim.show.draw.paints import LIGHT, Paint, Theme, hexadecimal
-from sim.show.draw.simplify import CHORD_PX, simplify
+from sim.show.draw.style import LIGHT, Paint, Theme, hexadecimal
+
+
+def path_data(line: Floats) -> str:
+    """A line (n, 2), n ≥ 1, units of the picture with y down, rounded to half a unit; empty where it does not move."""
+    placed = np.round(2.0 * line)
+    moves = np.concatenate([[True], (np.diff(placed, axis=0) != 0.0).any(axis=1)])
+    corners = placed[moves]
+    return f"M{_pair(corners[0])}l{' '.join(map(_pair, np.diff(corners, axis=0)))}" if len(corners) > 1 else ""
+
+
+def _pair(place: Floats) -> str:
+    return ",".join(f"{value / 2.0:g}" for value in place)
+
 
 FAMILIES: Final = "'Noto Sans CJK SC','Noto Sans SC','Source Han Sans SC','Microsoft YaHei','PingFang SC',sans-serif"
 """Faces that have Chinese; texts are fitted to the width that they have in the shipped one, the first of these."""

@@ -19,9 +19,8 @@ from parser.program import Program
 from parser.text.encoding import printable
 from parser.toolpath import Toolpath
 from parser.units import mm_text
-from sim.show.draw.flatten import bounds_um, cut_runs, flatten
-from sim.show.draw.path_data import path_data
-from sim.show.draw.simplify import simplify
+from sim.show.draw.flatten import bounds_um, cut_runs, flatten, simplify
+from sim.show.draw.svg import path_data
 from sim.show.html.environment import rendered
 from sim.show.texts import bilingual
 from sim.teach.drill.drills import Drill, lines_of

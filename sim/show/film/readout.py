@@ -18,8 +18,8 @@ from sim.run.course import Course, Event, Moment
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.layout import Box
-from sim.show.draw.paints import Paint, paint_of_pass
-from sim.show.pictures.cut.flags import SEVERITY_PAINTS
+from sim.show.draw.style import Paint, paint_of_pass
+from sim.show.pictures.cut.marks import SEVERITY_PAINTS
 from sim.show.texts import Words
 from sim.show.texts.phrases import counted_pass
 

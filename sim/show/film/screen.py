@@ -20,11 +20,16 @@ from sim.show.draw.canvas import Canvas
 from sim.show.draw.flatten import bounds_um
 from sim.show.draw.layout import Box, View, fitted
 from sim.show.draw.legend import Entry, LegendSizes, across, draw_legend, elide, in_columns, middle, stroke
-from sim.show.draw.paints import THEMES, TONES, Paint, Theme, ThemeName
-from sim.show.film.ground import PieceDrawn, outlines_um
+from sim.show.draw.style import (
+    THEMES,
+    TONES,
+    Paint,
+    Theme,
+    ThemeName,
+)
 from sim.show.film.readout import Line, bar_of, draw_strip, read_out, x_px
-from sim.show.film.scene import Layout, Pixels, Plate, Scene, fate, layout_for, plate_over
-from sim.show.pictures.cut.outlines import Bodies
+from sim.show.film.scene import Layout, PieceDrawn, Pixels, Plate, Scene, fate, layout_for, outlines_um, plate_over
+from sim.show.pictures.cut.subject import Bodies
 from sim.show.texts import Words
 
 THE_WIRE: Final = Paint.JUMP

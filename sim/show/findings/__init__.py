@@ -10,7 +10,7 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 from sim.check.result import CheckResult
-from sim.show.findings.options import Options
+from sim.show.findings.wording import Options
 from sim.show.terminal.printer import Form
 
 

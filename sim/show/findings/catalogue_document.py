@@ -11,7 +11,7 @@ from pathlib import Path
 from parser.findings.catalogue import Language, page
 from parser.findings.codes import CODES
 from sim.show.findings.pages import layers, page_text, page_title, severity_word
-from sim.show.terminal.documents import files
+from sim.show.terminal.markdown import files
 from sim.show.texts import Words
 
 NAMES: Mapping[Language, str] = {"en": "findings.md", "zh": "findings.zh.md"}

@@ -11,9 +11,8 @@ from parser.findings.findings import Finding
 from parser.text.encoding import printable
 from parser.text.places import place
 from sim.check.result import CheckResult
-from sim.show.findings.options import Options
 from sim.show.findings.totals import Totals
-from sim.show.findings.wording import counted, reasons, summary
+from sim.show.findings.wording import Options, counted, reasons, summary
 from sim.show.terminal.finding import with_block
 from sim.show.texts import Words
 

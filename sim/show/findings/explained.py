@@ -17,7 +17,7 @@ from parser.documents import (
 from parser.findings.catalogue import LANGUAGES, Language, example, page
 from parser.findings.codes import CODES
 from sim.show.findings.pages import severity_word
-from sim.show.terminal.documents import document, documents, title
+from sim.show.terminal.markdown import document, documents, title
 from sim.show.texts import Words
 
 

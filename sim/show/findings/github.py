@@ -7,10 +7,8 @@ from parser.findings.codes import Severity
 from parser.findings.findings import Finding
 from parser.text.encoding import printable
 from sim.check.result import CheckResult
-from sim.show.findings.options import Options
-from sim.show.findings.tidy import posix, spot
-from sim.show.findings.totals import Totals
-from sim.show.findings.wording import reasons, settings, silenced, summary, with_hint
+from sim.show.findings.totals import Totals, posix, spot
+from sim.show.findings.wording import Options, reasons, settings, silenced, summary, with_hint
 from sim.show.texts import Words
 
 _LEVELS: Mapping[Severity, str] = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.NOTE: "notice"}

@@ -12,9 +12,8 @@ from typing import Any
 from parser.findings.catalogue import Language
 from parser.findings.codes import Severity
 from sim.check.result import CheckResult, fingerprints
-from sim.show.findings.options import Options
-from sim.show.findings.tidy import joined, posix, tidy
-from sim.show.findings.wording import reason
+from sim.show.findings.totals import joined, posix, tidy
+from sim.show.findings.wording import Options, reason
 from sim.show.terminal.finding import message
 
 _SEVERITIES: Mapping[Severity, str] = {Severity.ERROR: "major", Severity.WARNING: "minor", Severity.NOTE: "info"}

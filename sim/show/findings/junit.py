@@ -16,9 +16,8 @@ from parser.findings.codes import CODES
 from parser.findings.findings import Finding
 from parser.text.places import place
 from sim.check.result import CheckResult, CheckState
-from sim.show.findings.options import Options
 from sim.show.findings.totals import BLOCKS
-from sim.show.findings.wording import reason, silenced, with_hint
+from sim.show.findings.wording import Options, reason, silenced, with_hint
 from sim.show.terminal.finding import message
 from sim.show.texts import Words
 

@@ -2,7 +2,7 @@
 
 from parser.findings.catalogue import Language, example, own_codes, page
 from parser.findings.codes import CODES
-from sim.show.terminal.documents import documents, title
+from sim.show.terminal.markdown import documents, title
 from sim.show.texts import Words
 
 _OF_LAYER = slice(None, -2)

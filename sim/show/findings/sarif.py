@@ -17,9 +17,13 @@ from parser.findings.catalogue import Language, own_codes, page, term
 from parser.findings.codes import CODES, Check
 from parser.findings.findings import Edit, Finding
 from sim.check.result import CheckResult, fingerprints
-from sim.show.findings.options import Options
-from sim.show.findings.tidy import clean, joined, spot, tidy
-from sim.show.findings.wording import reason, silenced, with_hint
+from sim.show.findings.totals import (
+    clean,
+    joined,
+    spot,
+    tidy,
+)
+from sim.show.findings.wording import Options, reason, silenced, with_hint
 from sim.show.texts import Words
 
 _SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"

@@ -13,11 +13,21 @@ from parser.findings.findings import ReadAs
 from parser.text.encoding import printable
 from parser.text.places import cells
 from sim.check.result import CheckResult
-from sim.show.findings.options import Options
 from sim.show.findings.totals import BLOCKS, Totals
-from sim.show.findings.wording import counted, reach, read_as, reasons, silenced, silencers, summary, verdict, verdicts
-from sim.show.terminal.colours import COLOURS, painted, styled
+from sim.show.findings.wording import (
+    Options,
+    counted,
+    reach,
+    read_as,
+    reasons,
+    silenced,
+    silencers,
+    summary,
+    verdict,
+    verdicts,
+)
 from sim.show.terminal.finding import finding_lines
+from sim.show.terminal.printer import COLOURS, painted, styled
 from sim.show.terminal.wrap import wrapped
 from sim.show.texts import Words
 

@@ -1,6 +1,12 @@
-"""Sentences of the formats in English and Chinese; names of checks and reasons are terms of the catalogue."""
+"""Sentences of the formats in English and Chinese, and the choices that formats share.
+
+Sentences of the formats in English and Chinese; names of checks and reasons are terms of the catalogue.
+
+Choices that formats share.
+"""
 
 from collections.abc import Iterable, Mapping, Sequence
+from typing import NamedTuple
 
 from parser.findings.catalogue import Language, term
 from parser.findings.codes import Severity
@@ -8,6 +14,7 @@ from parser.findings.findings import Finding, ReadAs, telling
 from sim.check.result import CheckResult, CheckState, Coverage, Silenced, State
 from sim.show.findings.totals import Totals
 from sim.show.terminal.finding import hint, message
+from sim.show.terminal.wrap import WIDTH
 from sim.show.texts import Words
 from sim.show.texts.phrases import as_read
 
@@ -147,3 +154,23 @@ def reasons(checks: Iterable[CheckState], language: Language) -> list[str]:
 
 def _because(checks: str, reason: str, language: Language) -> str:
     return Words(language)("findings.reason", check=checks, reason=reason)
+
+
+class Options(NamedTuple):
+    """How to write results.
+
+    Attributes
+    ----------
+    language
+        Language of all texts.
+    colour, quiet, statistics
+        Of the text format: with colours; no line for files without a finding and no summary; with a table of counts.
+    width
+        Of the text format: cells of a line.
+    """
+
+    language: Language = "en"
+    colour: bool = False
+    quiet: bool = False
+    statistics: bool = False
+    width: int = WIDTH

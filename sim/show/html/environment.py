@@ -25,7 +25,7 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
 from parser import __version__
-from sim.show.draw.paints import DARK, LIGHT, Theme
+from sim.show.draw.style import DARK, LIGHT, Theme
 from sim.show.texts import bilingual
 from sim.show.texts.texts import texts
 

@@ -12,9 +12,8 @@ import numpy as np
 from parser.findings.catalogue import LANGUAGES, Bilingual, page
 from parser.geometry.curves import Curves, Floats
 from sim.base.units import hours_text
-from sim.show.draw.flatten import bounds_um, cut_runs, flatten
-from sim.show.draw.path_data import path_data
-from sim.show.draw.simplify import simplify
+from sim.show.draw.flatten import bounds_um, cut_runs, flatten, simplify
+from sim.show.draw.svg import path_data
 from sim.show.html.environment import rendered
 
 WIDTH, HEIGHT = 96, 72

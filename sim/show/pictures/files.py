@@ -9,9 +9,9 @@ from PIL import Image, ImageOps
 from parser.findings.catalogue import Language
 from parser.findings.errors import SettingsError
 from sim.base.files import staged
-from sim.show.draw.paints import THEMES, ThemeName
 from sim.show.draw.raster import Raster
 from sim.show.draw.sheet import Sheet, drawing, pixels
+from sim.show.draw.style import THEMES, ThemeName
 from sim.show.draw.svg import Svg
 from sim.show.pictures.shown import Drawable, label
 

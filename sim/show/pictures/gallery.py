@@ -10,11 +10,10 @@ from sim.show.draw import style
 from sim.show.draw.sheet import AnyCanvas, Sheet
 from sim.show.pictures.cut.of_path import Programmed, draw_path
 from sim.show.pictures.cut.of_run import draw_cut_of_run
-from sim.show.pictures.cut.shapes import Shapes
-from sim.show.pictures.deviation.along import draw_along
-from sim.show.pictures.deviation.histogram import draw_histogram
+from sim.show.pictures.cut.picture import Shapes
+from sim.show.pictures.deviation.along import draw_along, draw_histogram
+from sim.show.pictures.deviation.frame import Samples, samples_of
 from sim.show.pictures.deviation.polar import draw_polar
-from sim.show.pictures.deviation.samples import Samples, samples_of
 from sim.show.pictures.deviation.whiskers import draw_whiskers
 from sim.show.pictures.deviation.worst import draw_worst
 from sim.show.pictures.motion.picture import draw_motion

@@ -29,7 +29,13 @@ from parser.shape.contours import Contour
 from parser.text.encoding import printable
 from parser.toolpath import Stop
 from parser.units import from_mm
-from sim.base.rounded import column, corners, numbers, place, rounded
+from sim.base.units import (
+    column,
+    corners,
+    numbers,
+    place,
+    rounded,
+)
 from sim.cut.pieces.pieces import Piece
 from sim.run.course import Happening, PassOf, course_of, passes_of
 from sim.run.dryrun import DryRun
@@ -39,11 +45,10 @@ from sim.run.outlines import simpler
 from sim.run.recording import Recording
 from sim.setup.obstacles import Outline
 from sim.show.decoded import buffer_text, order_text, value_text, way_texts, word_text
-from sim.show.draw.paints import paint_of_pass, tones_of
+from sim.show.draw.style import paint_of_pass, tones_of
 from sim.show.html.environment import rendered
 from sim.show.html.packed import packed
 from sim.show.keys import OF_PAGE, actions_of
-from sim.show.replay.curve_columns import drawing_columns, exact_columns
 from sim.show.replay.model import (
     BlocksEntry,
     ContourEntry,
@@ -62,7 +67,7 @@ from sim.show.replay.model import (
     StopEntry,
 )
 from sim.show.replay.quiz import quiz_of
-from sim.show.replay.tape import tape
+from sim.show.replay.tape import drawing_columns, exact_columns, tape
 from sim.show.texts.phrases import machine_name, named_pass
 from sim.table.follow import Setup
 from sim.table.record.losses import Loss

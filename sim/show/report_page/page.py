@@ -16,7 +16,7 @@ from parser.dialect.reader import OwnDialect
 from parser.findings.catalogue import Bilingual
 from parser.program import Program, own_dialect_text
 from parser.text.encoding import encode_text
-from sim.base.workers.makers import Maker, versions
+from sim.base.workers.rounds import Maker, versions
 from sim.cut.pieces.pieces import Pieces
 from sim.run.dryrun import DryRun
 from sim.run.findings import outcome
@@ -30,10 +30,10 @@ from sim.setup.quiz import QUIZ
 from sim.setup.scenario import MACHINE_FILE, Scenario, scenario_sections
 from sim.setup.toml.keys import Key, Section, WrittenSection, toml_text, toml_value
 from sim.setup.toml.kinds import OneOf
-from sim.show.assumptions import taken_for_granted
-from sim.show.draw.paints import DARK, Theme, hexadecimal
+from sim.show.draw.style import DARK, Theme, hexadecimal
 from sim.show.html.environment import rendered
 from sim.show.pictures.inline import Inline
+from sim.show.refusals import taken_for_granted
 from sim.show.report_page.figures import key_figures, time_figures, why
 from sim.show.report_page.findings import explained, inline, shown_findings
 from sim.show.report_page.results import (

@@ -12,7 +12,7 @@ from sim.run.recording import NO_PIECES
 from sim.run.report.model import ReportDocument
 from sim.run.report.run_model import ThreadPointEntry
 from sim.setup.key_words import words_of
-from sim.setup.work import DEFAULT_DENSITY_G_CM3, SHEET
+from sim.setup.part import DEFAULT_DENSITY_G_CM3, SHEET
 from sim.show.report_page.findings import ShownFinding, gravest_findings
 from sim.show.report_page.tables import Column, ReportTable, called, column_of, counted, millimetres, reached, timed
 from sim.show.texts import bilingual

@@ -10,7 +10,7 @@ from parser.findings.catalogue import Bilingual
 from parser.text.source import BlockNames
 from parser.units import UM_PER_MM
 from sim.run.report.cut_model import BoxEntry, DistanceEntry, PieceEntry, RadiusEntry, ShiftEntry, SizesEntry
-from sim.run.report.drawing_model import CornerEntry, PlaceEntry
+from sim.run.report.drawing import CornerEntry, PlaceEntry
 from sim.show.html.packed import packed
 from sim.show.texts import bilingual
 

@@ -15,8 +15,8 @@ from parser.units import mm
 from parser.write.losses import Loss
 from sim.make.convert.convert import Converted, Refused
 from sim.make.convert.wanted import Wanted
-from sim.show.terminal.colours import painted, styled
 from sim.show.terminal.finding import finding_lines
+from sim.show.terminal.printer import painted, styled
 from sim.show.terminal.wrap import wrapped
 from sim.show.texts import Words
 from sim.show.texts.phrases import as_read, listed, numbered, same

@@ -9,9 +9,8 @@ from parser.program import Program
 from parser.text.encoding import printable
 from parser.text.places import cells
 from sim.show.decoded import buffer_text, order_text, value_text, way_texts, word_text
-from sim.show.terminal.colours import styled
 from sim.show.terminal.layout import paragraph
-from sim.show.terminal.printer import say
+from sim.show.terminal.printer import say, styled
 from sim.show.terminal.streams import outlet
 from sim.show.terminal.wrap import width_of, wrapped
 from sim.show.texts import Words

@@ -9,8 +9,7 @@ from rich.style import Style
 from rich.table import Table
 from rich.text import Text
 
-from sim.show.terminal.colours import styled
-from sim.show.terminal.printer import say
+from sim.show.terminal.printer import say, styled
 from sim.show.terminal.streams import outlet
 from sim.show.terminal.wrap import width_of, wrapped
 

@@ -17,15 +17,14 @@ from parser.units import mm, mm_text
 from sim.base.units import in_figures
 from sim.cut.pieces.pieces import Piece
 from sim.measure.deviation.deviation import Where
-from sim.measure.passes.figures import PassFigures
+from sim.measure.passes import PassFigures
 from sim.run.dryrun import DryRun
 from sim.run.findings import outcome
 from sim.setup.key_words import value_word
-from sim.show.assumptions import taken_for_granted
-from sim.show.terminal.colours import COLOURS, painted, styled
+from sim.show.refusals import taken_for_granted
 from sim.show.terminal.finding import finding_lines
 from sim.show.terminal.layout import paragraph, show, table
-from sim.show.terminal.printer import say
+from sim.show.terminal.printer import COLOURS, painted, say, styled
 from sim.show.terminal.streams import outlet
 from sim.show.terminal.wrap import width_of
 from sim.show.texts import Words

@@ -10,8 +10,8 @@ from parser.controller_words import Axis
 from sim.base.units import newtons
 from sim.table.physics.drive import Drive
 from sim.table.record.history import PEAK_COLUMNS, Record
+from sim.table.ticks import Ticks
 from sim.table.trace import Trace
-from sim.table.when.ticks import Ticks
 
 Quantity = Literal["force", "speed", "lag"]
 _QUANTITIES: Final[tuple[Quantity, ...]] = ("force", "speed", "lag")

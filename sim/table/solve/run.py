@@ -1,4 +1,11 @@
-"""One axis over a whole run, stretch by stretch of its pulses."""
+"""One axis over a whole run, stretch by stretch of its pulses, in the compiled loop or in the reference.
+
+One axis over a whole run, stretch by stretch of its pulses.
+
+The reference: the same ticks in Python, with the table as bodies that pymunk moves; ``--engine pymunk``.
+
+It is some thousand times slower than the compiled loop, which tests hold against it.
+"""
 
 import copy
 import math
@@ -6,17 +13,28 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
+from parser.controller_words import Axis as AxisName
 from parser.geometry.curves import Floats
 from sim.setup.machine.table_model import TableModel
-from sim.table.physics.drive import drives_of
+from sim.table.physics.drive import Bodies, drives_of, resting
 from sim.table.physics.rating import RATE_WINDOW_S, Rating, Train, Turn, rated, strength_of
-from sim.table.physics.state import resting
-from sim.table.record.bins import VALUES, Bins
-from sim.table.record.history import PEAKS, Record, borders_s
+from sim.table.record.history import PEAKS, VALUES, Bins, Record, borders_s
 from sim.table.record.losses import Slip
-from sim.table.solve.axis import Axis, AxisDemand, Noted, State
-from sim.table.solve.tick import due_s, followed, recorded, waited
-from sim.table.when.ticks import Ticks
+from sim.table.solve.axis import (
+    Axis,
+    AxisDemand,
+    Noted,
+    Passed,
+    State,
+    after,
+    ahead_of,
+    driven,
+    due_s,
+    followed,
+    recorded,
+    waited,
+)
+from sim.table.ticks import Ticks
 
 Engine = Callable[[Axis, AxisDemand, State, Record], State]
 """What goes through the ticks of an axis."""
@@ -122,3 +140,28 @@ def _record_of(ticks: Ticks, place_um: float) -> Record:
         slip_um=np.zeros(_SLIPS),
         slip_at_um=np.zeros(_SLIPS),
     )
+
+
+class InBodies:
+    """An axis of a table of bodies: what `followed` of `sim.table.solve.axis` is to a compiled one."""
+
+    def __init__(self, bodies: Bodies, name: AxisName) -> None:
+        self._bodies, self._name = bodies, name
+
+    def followed(self, axis: Axis, demand: AxisDemand, state: State, record: Record) -> State:
+        """An axis that has followed its pulses to their end, has no room for slips in its record, or has tripped."""
+        while (until_s := due_s(demand, state)) < demand.until_s and state.noted.slip < len(record.slip_s):
+            if state.tripped_s < demand.braked_s:
+                break
+            waits = until_s > state.slide.t_s
+            now = waited(state, until_s) if waits else self._ticked(axis, demand, state)
+            state = recorded(axis, demand, state, now, record)
+        return state
+
+    def _ticked(self, axis: Axis, demand: AxisDemand, state: State) -> State:
+        """An axis after a tick."""
+        slide, ahead = state.slide, ahead_of(axis, demand, state)
+        now = driven(axis, demand, slide, ahead)
+        at_um = self._bodies.moved_um(self._name, slide, now.velocity * ahead.tick_s)
+        velocity = (at_um - slide.at_um) / ahead.tick_s
+        return after(axis, demand, state, ahead, Passed(now.force, at_um, velocity))

@@ -1,17 +1,174 @@
-"""Every kind of fault that a hand, a cable or a memory makes.
+"""Every kind of fault that a hand, a cable or a memory makes, those in the words of one block first.
+
+Faults in the words of one block: its place in the program, its label and its printed end stay as they are.
+
+Every kind of fault that a hand, a cable or a memory makes.
 
 Faults of whole lines: blocks and marks that are missing, stand twice, or stand elsewhere.
 """
 
-from collections.abc import Mapping
+import re
+from collections.abc import Callable, Mapping
 from random import Random
 from typing import Final, Literal, NamedTuple, get_args
 
+from parser.dialect.reader import Spelling
 from parser.program import Program
+from parser.step_words.words import SENSES
 from parser.text.source import Field, Span
-from sim.teach.drill import words
 from sim.teach.drill.sound import Slip, Sound
-from sim.teach.drill.words import Maker
+
+Maker = Callable[[Random, Sound], Slip | None]
+"""Makes a fault by chance; None where the place that chance chose has nothing to damage in this way."""
+
+_QUADRANTS = "1234"
+_OF_CENTRE = re.compile(r"(?<=[IJij])[-+]?[\d.]+", re.ASCII)
+
+
+def digit(field: Field, how: str) -> Maker:
+    """A digit of a number ``changed``, ``lost`` or ``doubled``."""
+    return _in_field(field, lambda chance, word, _: _with_digit(chance, word, how))
+
+
+def digit_of_centre() -> Maker:
+    """A digit of I or J changed."""
+
+    def make(chance: Random, sound: Sound) -> Slip | None:
+        row = chance.choice(sound.rows)
+        if sound.path.words is not None:
+            return None
+        first = int(sound.path.source.span[row, 0])
+        numbers = list(_OF_CENTRE.finditer(sound.path.source.block_text(row)))
+        if not numbers:
+            return None
+        number = chance.choice(numbers)
+        span = first + number.start(), first + number.end()
+        put = _with_digit(chance, number[0], "changed")
+        return Slip(sound.with_text(span, put), frozenset({sound.line(row)})) if put else None
+
+    return make
+
+
+def sign(field: Field) -> Maker:
+    """A minus lost, or one that was not there."""
+
+    def change(_: Random, word: str, sound: Sound) -> str | None:
+        if sound.path.words is not None:  # block lengths have no signs
+            return None
+        return word.replace("-", "", 1) if "-" in word else re.sub(r"(?=[\d.])", "-", word, count=1)
+
+    return _in_field(field, change)
+
+
+def point(field: Field) -> Maker:
+    """A decimal point lost: controllers take the number for steps."""
+    return _in_field(field, lambda _, word, __: re.sub(r"\.(?=\d)", "", word, count=1))
+
+
+def axis() -> Maker:
+    """GX for GY."""
+    return _in_field(Field.AXIS, lambda _, word, __: word.translate(str.maketrans("XYxy", "YXyx")))
+
+
+def quadrant() -> Maker:
+    """Another quadrant behind the letters of the sense."""
+
+    def change(chance: Random, word: str, sound: Sound) -> str | None:
+        if sound.path.words is None:
+            return None
+        return word[:-1] + chance.choice([each_quadrant for each_quadrant in _QUADRANTS if each_quadrant != word[-1]])
+
+    return _in_field(Field.SENSE, change)
+
+
+def turned() -> Maker:
+    """An arc that turns the other way."""
+
+    def change(_: Random, word: str, sound: Sound) -> str | None:
+        spelling = sound.program.reading.spelling
+        for this, other in _arcs(spelling), _arcs(spelling)[::-1]:
+            if _bare(word).startswith(_bare(this)):
+                return other + _bare(word)[len(_bare(this)) :]
+        return None
+
+    return _in_field(Field.SENSE, change)
+
+
+def bent() -> Maker:
+    """A line made an arc, or an arc a line."""
+
+    def change(chance: Random, word: str, sound: Sound) -> str | None:
+        if sound.path.words is None:
+            return None
+        line, *arcs = SENSES.values()
+        return (chance.choice(arcs) if word.upper().startswith(line) else line) + word[-1]
+
+    return _in_field(Field.SENSE, change)
+
+
+def other_side() -> Maker:
+    """The offset on the other side of the path."""
+    return _in_field(Field.SIDE, lambda _, word, __: word[:-1] + {"1": "2", "2": "1"}.get(word[-1], word[-1]))
+
+
+def letter_lost(letters: str) -> Maker:
+    """One of some letters lost from a block."""
+    return _in_text(letters, "")
+
+
+def letter_for_digit() -> Maker:
+    """The letter O for a zero."""
+    return _in_text("0", "O")
+
+
+def _in_field(field: Field, change: Callable[[Random, str, Sound], str | None]) -> Maker:
+    """A fault in one field of a block that has it."""
+
+    def make(chance: Random, sound: Sound) -> Slip | None:
+        row = chance.choice(sound.rows)
+        found = sound.field(row, field)
+        put = found and change(chance, found[1], sound)
+        if not found or not put:
+            return None
+        return Slip(sound.with_text(found[0], put), frozenset({sound.line(row)}))
+
+    return make
+
+
+def _in_text(signs: str, put: str) -> Maker:
+    """One of some characters of a block's text replaced."""
+
+    def make(chance: Random, sound: Sound) -> Slip | None:
+        row = chance.choice(sound.rows)
+        first = int(sound.path.source.span[row, 0])
+        text = sound.path.source.block_text(row)
+        places = [first + at for at, each in enumerate(text) if each.upper() in signs]
+        if not places:
+            return None
+        at = chance.choice(places)
+        return Slip(sound.with_text((at, at + 1), put), frozenset({sound.line(row)}))
+
+    return make
+
+
+def _with_digit(chance: Random, word: str, how: str) -> str | None:
+    """A word with one digit ``changed``, ``lost`` or ``doubled``; None where none would be left."""
+    places = [at for at, each in enumerate(word) if each.isdigit()]
+    if len(places) < (2 if how == "lost" else 1):
+        return None
+    at = chance.choice(places)
+    other = chance.choice([each for each in "0123456789" if each != word[at]])
+    put = {"changed": other, "lost": "", "doubled": word[at] * 2}[how]
+    return f"{word[:at]}{put}{word[at + 1 :]}"
+
+
+def _arcs(spelling: Spelling) -> tuple[str, str]:
+    return spelling.clockwise, spelling.counter_clockwise
+
+
+def _bare(word: str) -> str:
+    """In capitals, without blanks, and without the zeros that ``G02`` may go without."""
+    return re.sub(r"[\s0]", "", word).upper()
 
 
 def block_lost(chance: Random, sound: Sound) -> Slip | None:
@@ -99,23 +256,23 @@ _NUMBERS: Final = {"x": Field.X, "y": Field.Y, "count": Field.COUNT, "radius": F
 
 KINDS: Final[Mapping[str, Kind]] = {
     **{
-        f"{name}-digit-{how}": Kind("number", words.digit(field, how))
+        f"{name}-digit-{how}": Kind("number", digit(field, how))
         for name, field in _NUMBERS.items()
         for how in ("changed", "lost", "doubled")
     },
-    "centre-digit-changed": Kind("number", words.digit_of_centre()),
-    **{f"{name}-sign": Kind("number", words.sign(_NUMBERS[name])) for name in "xy"},
-    **{f"{name}-point": Kind("number", words.point(_NUMBERS[name])) for name in "xy"},
-    "axis": Kind("axis", words.axis()),
-    "quadrant": Kind("quadrant", words.quadrant()),
-    "turn": Kind("sense", words.turned()),
-    "bent": Kind("sense", words.bent()),
-    "side": Kind("side", words.other_side()),
-    "b-lost": Kind("unreadable", words.letter_lost("B")),
-    "g-lost": Kind("unreadable", words.letter_lost("G")),
-    "axis-lost": Kind("unreadable", words.letter_lost("XY")),
-    "sense-lost": Kind("unreadable", words.letter_lost("LNSR")),
-    "letter-o": Kind("unreadable", words.letter_for_digit()),
+    "centre-digit-changed": Kind("number", digit_of_centre()),
+    **{f"{name}-sign": Kind("number", sign(_NUMBERS[name])) for name in "xy"},
+    **{f"{name}-point": Kind("number", point(_NUMBERS[name])) for name in "xy"},
+    "axis": Kind("axis", axis()),
+    "quadrant": Kind("quadrant", quadrant()),
+    "turn": Kind("sense", turned()),
+    "bent": Kind("sense", bent()),
+    "side": Kind("side", other_side()),
+    "b-lost": Kind("unreadable", letter_lost("B")),
+    "g-lost": Kind("unreadable", letter_lost("G")),
+    "axis-lost": Kind("unreadable", letter_lost("XY")),
+    "sense-lost": Kind("unreadable", letter_lost("LNSR")),
+    "letter-o": Kind("unreadable", letter_for_digit()),
     "block-lost": Kind("missing", block_lost),
     "jump-lost": Kind("missing", jump_lost),
     "block-doubled": Kind("twice", block_doubled),

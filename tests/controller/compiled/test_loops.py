@@ -168,7 +168,7 @@ def test_threads_that_call_a_loop_first_all_get_what_it_returns() -> None:
     code = (
         "from concurrent.futures import ThreadPoolExecutor\n"
         "import numpy as np\n"
-        "from sim.make.cam.order.order import neighbours\n"
+        "from sim.make.cam.order import neighbours\n"
         "place = np.arange(12.0).reshape(6, 2)\n"
         "def call(_): return neighbours(place, 1).tolist()\n"
         "with ThreadPoolExecutor(8) as pool: found = list(pool.map(call, range(8)))\n"

@@ -24,23 +24,23 @@ from parser.findings.errors import DrycutError, FileUnreadableError, SettingsErr
 ROOT = Path(__file__).parents[3]
 SHIPPED = {
     *("parser/findings/catalogue.py", "sim/show/texts/texts.py", "sim/setup/key_words.py", "sim/setup/key_tables.py"),
-    *("sim/show/html/environment.py", "sim/show/findings/catalogue_document.py", "sim/show/terminal/documents.py"),
+    *("sim/show/html/environment.py", "sim/show/findings/catalogue_document.py", "sim/show/terminal/markdown.py"),
     *("parser/iso/profiles/profile.py", "parser/write/iso.py", "parser/drawing/dxf/document.py"),
-    *("controller/compiled/loops.py", "sim/base/workers/makers.py"),  # our own modules
+    *("controller/compiled/loops.py", "sim/base/workers/rounds.py"),  # our own modules
     "sim/check/own_checks.py",  # which distributions offer checks
     "sim/serve/page/shortcut.py",  # its icon
-    *("controller/card/abi/table.py", "sim/clients/library/build.py"),  # C that libraries are made of
+    *("controller/card/abi/table.py", "sim/clients/library.py"),  # C that libraries are made of
 }
 """Modules that read files which drycut brings along, or its own documents."""
 OWN = {
     *("sim/base/files/swap.py", "sim/base/files/stages.py", "sim/base/files/steps.py", "sim/run/recording.py"),
-    *("sim/jobs/batch.py", "sim/jobs/task.py", "sim/jobs/trace_file.py"),
+    *("sim/jobs/batch.py", "sim/jobs/batch.py", "sim/jobs/trace_file.py"),
     "controller/compiled/machine_code.py",  # machine code, sealed
     "sim/show/terminal/streams.py",  # reopens closed streams on nothing
     *("sim/cli/lsp.py", "sim/serve/page/child.py"),  # hand a protocol, or a process of ours, its streams
     *(
         "sim/serve/page/drawings.py",
-        "sim/serve/page/run_requests.py",
+        "sim/serve/page/runs.py",
     ),  # what a process of ours found, and the files of a run
 }
 """Modules that read what drycut wrote, or look whether a file is still what the door read."""

@@ -11,7 +11,7 @@ from parser.dialect.reader import Choices
 from parser.findings.codes import Severity
 from parser.program import Program, parse_program
 from sim.check.file_check import Job, check_file
-from sim.check.programmed import programmed_of
+from sim.check.result import programmed_of
 from sim.check.settings import CheckSettings
 
 PROGRAMS = [(family, number) for family in FAMILIES for number in range(6)]

@@ -10,7 +10,12 @@ from parser.findings.errors import DrycutError
 from sim.check.file_check import Job, check_file
 from sim.check.result import CheckResult, CheckState, Silenced, gap_marks
 from sim.check.settings import CheckSettings
-from sim.check.silence.baseline import Baseline, baseline_text, known_of, read_baseline
+from sim.check.silence import (
+    Baseline,
+    baseline_text,
+    known_of,
+    read_baseline,
+)
 
 LABEL = "B9900B0B9900GXL4\nB9900B0B9900GXL3\n"  # 3B203
 

@@ -11,10 +11,9 @@ from slips import contradiction, measured
 
 from parser.findings.findings import edited
 from parser.program import Program
-from sim.check import engine
-from sim.check.engine import Checked
+from sim.check import path_checks
 from sim.check.file_check import Job, check_file
-from sim.check.path_checks import Demands
+from sim.check.path_checks import Checked, Demands
 from sim.check.result import CheckResult
 from sim.check.settings import CheckSettings
 
@@ -163,13 +162,13 @@ def test_a_longer_program_keeps_all_that_its_checks_suspect(
 def checks_made(monkeypatch: pytest.MonkeyPatch, text: str) -> tuple[int, set[str]]:
     """How often every check is run on a program, and the codes of what they find."""
     made = []
-    every_check = engine._every_check
+    every_check = path_checks._every_check
 
     def counted(program: Program, demands: Demands) -> Checked:
         made.append(program)
         return every_check(program, demands)
 
-    monkeypatch.setattr(engine, "_every_check", counted)
+    monkeypatch.setattr(path_checks, "_every_check", counted)
     result = check_file(Job("part.3b", text.encode(), CheckSettings()))
     return len(made), {finding.code for finding in result.findings}
 

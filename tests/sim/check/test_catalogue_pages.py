@@ -9,7 +9,7 @@ from sim.check.result import CheckResult
 from sim.check.settings import CheckSettings
 from sim.setup.machine.machine import load_machine
 from sim.show.findings.pages import list_text, page_text, severity_word
-from sim.show.terminal.documents import documents
+from sim.show.terminal.markdown import documents
 from sim.show.texts import Words
 
 OF_A_RUN = {code for code, of in CODES.items() if of.check is None}

@@ -18,9 +18,8 @@ from parser.findings.codes import Check, Severity
 from parser.findings.findings import Finding
 from parser.program import Program, parse_program
 from sim.check.compensation.rounds import contour_of
-from sim.check.engine import Checked, run_checks
-from sim.check.pass_over_round import Offsetting
-from sim.check.path_checks import Demands
+from sim.check.offset import Offsetting
+from sim.check.path_checks import Checked, Demands, run_checks
 
 STUB_OF_A_COMPENSATED_LEAD = 100.0 * (math.sqrt(5.0) / 2.0 - 1.0)  # midway between two places an offset apart
 

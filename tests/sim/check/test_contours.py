@@ -8,7 +8,7 @@ from controller.stepping.point_by_point import interpolate
 from parser.findings.findings import Finding
 from parser.program import parse_program
 from parser.shape.contours import find_contours
-from sim.check.count_axes import ruled_count_axis
+from sim.check.closures import ruled_count_axis
 from sim.check.file_check import Job, check_file
 from sim.check.settings import CheckSettings
 

@@ -10,7 +10,7 @@ from paths import Pen
 from parser.shape.contours import contour_rows
 from parser.shape.loops import find_loops
 from parser.shape.passes import find_passes
-from sim.check.shape.corners import tight_corners
+from sim.check.geometry import tight_corners
 
 OFFSET = 100.0
 

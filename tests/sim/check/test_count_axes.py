@@ -10,7 +10,12 @@ from plain import PlainBlock, plain_steps
 from controller.stepping.point_by_point import interpolate
 from parser.findings.findings import Finding
 from parser.program import parse_program
-from sim.check.count_axes import count_on, ruled_count_axis, stepped_end_findings, stepped_miss
+from sim.check.closures import (
+    count_on,
+    ruled_count_axis,
+    stepped_end_findings,
+    stepped_miss,
+)
 
 
 def found(text: str) -> list[Finding]:

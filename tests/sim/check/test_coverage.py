@@ -4,8 +4,13 @@ import pytest
 from places import SCENARIOS
 
 from parser.program import parse_program
-from sim.check.engine import PARSER_CHECKS, PATH_CHECKS, Checked, run_checks
-from sim.check.path_checks import Demands
+from sim.check.path_checks import (
+    PARSER_CHECKS,
+    PATH_CHECKS,
+    Checked,
+    Demands,
+    run_checks,
+)
 from sim.setup.machine.machine import load_machine
 
 OPEN = "B10000B0B10000GXL1 B0B10000B10000GYL2 B10000B0B9000GXL3 B0B10000B10000GYL4 DD"

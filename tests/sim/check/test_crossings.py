@@ -11,7 +11,7 @@ from paths import Pen
 
 from parser.shape.contours import contour_rows
 from parser.shape.passes import find_passes
-from sim.check.shape.crossings import find_crossings
+from sim.check.crossings import find_crossings
 
 
 def crossings(pen: Pen) -> list[tuple[int, int]]:

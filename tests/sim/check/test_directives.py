@@ -10,7 +10,7 @@ from parser.program import parse_program
 from sim.check.file_check import Job, check_file
 from sim.check.result import CheckResult, Silenced
 from sim.check.settings import CheckSettings
-from sim.check.silence.directives import heed
+from sim.check.silence import heed
 
 LEAD, CIRCLE, BACK, END = WRONG_AXIS.splitlines()
 LABEL = SOUND.replace("GXL1", "GXL4")  # 3B203 in line 1

@@ -18,8 +18,8 @@ from sim.check.file_check import as_typed
 from sim.check.mended import mended_text
 from sim.check.settings import CheckSettings
 from sim.cli.check.mends import for_tools
-from sim.serve.editor.places import Places, Text
 from sim.serve.editor.server import actions_of
+from sim.serve.editor.shown import Places, Text
 from sim.serve.page.answers import answer, file_of, read_file
 
 UNITS = {"utf-8": ("utf-8", 1), "utf-16": ("utf-16-le", 2), "utf-32": ("utf-32-le", 4)}

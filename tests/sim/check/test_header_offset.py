@@ -3,8 +3,7 @@
 import pytest
 
 from parser.program import parse_program
-from sim.check.engine import run_checks
-from sim.check.path_checks import Demands
+from sim.check.path_checks import Demands, run_checks
 from sim.setup.machine.machine import load_machine
 
 HOLE = "B{r}B0B{r}GXL1\nB{r}B0B{j}GYNR1\nB{r}B0B{r}GXL3\n"

@@ -7,8 +7,7 @@ from iso_programs import FAMILIES, program
 
 from parser.dialect.reader import Choices
 from parser.program import load_program
-from sim.check.engine import run_checks
-from sim.check.path_checks import Demands
+from sim.check.path_checks import Demands, run_checks
 
 ALWAYS = {"ISO112"}
 HOLE = ("G01 X5000 Y0", "G03 I-5000 J0", "G01 X0 Y0")

@@ -12,7 +12,7 @@ from parser.findings.codes import Severity
 from parser.program import parse_program
 from parser.shape.contours import contour_rows
 from sim.check.file_check import check_program
-from sim.check.shape.senses import ReversedArcs, retraced_arcs, reversed_arcs
+from sim.check.geometry import ReversedArcs, retraced_arcs, reversed_arcs
 
 HALF = math.pi / 2
 

@@ -16,10 +16,9 @@ from parser.toolpath import Toolpath
 from sim.check.file_check import Job, check_file
 from sim.check.settings import CheckSettings
 from sim.cut.pieces.pieces import pieces_of
-from sim.measure.compare.as_cut import edge_as_cut
-from sim.measure.compare.compare import compare
-from sim.measure.compare.compared_program import compare_program
+from sim.measure.compare.compare import compare, compare_program
 from sim.measure.compare.result import FitRequest
+from sim.measure.compare.rings import edge_as_cut
 
 WIRE = CheckSettings(wire_diameter_um=180.0, spark_gap_um=10.0)
 MEANT = {"offsets_that_rise": {"3B312"}}

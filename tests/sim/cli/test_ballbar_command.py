@@ -25,10 +25,10 @@ from sim.cli.ballbar import ballbar as command
 from sim.run.ballbar.circle import Ballbar, circle_test, document, run_test
 from sim.run.ballbar.figures import SENSES, MeasuredTurn
 from sim.setup.machine.machine import load_machine
-from sim.show.draw.dial import RING_SIZES, RINGS, ring_for
-from sim.show.draw.paints import LIGHT, Paint
-from sim.show.pictures.ballbar.plot import draw_ballbar
-from sim.show.terminal.ballbar import print_ballbar
+from sim.show.draw.chart import RING_SIZES, RINGS, ring_for
+from sim.show.draw.style import LIGHT, Paint
+from sim.show.pictures.ballbar import draw_ballbar
+from sim.show.terminal.batch import print_ballbar
 from sim.table.record.losses import Loss
 
 SMALL = ("ballbar", "--radius", "1mm")

@@ -20,7 +20,7 @@ from sound_shapes import SHAPES, Shape, filleted, placed, reverse
 from parser.drawing.read import read_drawing
 from parser.findings.catalogue import remark_text
 from sim.cli.compare import compare as command
-from sim.measure.compare.compared_program import compare_program
+from sim.measure.compare.compare import compare_program
 from sim.measure.compare.findings import by_entity
 from sim.measure.compare.result import Comparison, FitRequest
 from sim.run.report.drawing import comparison_document

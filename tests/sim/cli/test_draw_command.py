@@ -9,7 +9,7 @@ import pytest
 from command import run_command, run_inside
 from PIL import Image
 
-from sim.show.draw.paints import DARK, LIGHT, Paint
+from sim.show.draw.style import DARK, LIGHT, Paint
 from sim.show.pictures import files
 from sim.show.pictures.gallery import PICTURES
 

@@ -10,7 +10,7 @@ import pytest
 from checking import SOUND, WRONG_AXIS
 from places import ROOT
 
-from sim.cli.extras import EXTRA_OF
+from sim.cli.faults import EXTRA_OF
 
 BLOCKED = """
 import sys

@@ -21,9 +21,9 @@ from parser.dialect.reader import (
     register_name,
 )
 from parser.program import dialects, load_program
-from sim.check.programmed import Programmed, programmed_of
+from sim.check.result import Programmed, programmed_of
 from sim.check.settings import CheckSettings
-from sim.cli.dialect_options import offsets_of, register_set
+from sim.cli.options import offsets_of, register_set
 from sim.setup.key_words import value_word
 from sim.setup.machine.machine import load_machine
 from sim.setup.scenario import MACHINE_FILE, load_scenario, scenario_sections

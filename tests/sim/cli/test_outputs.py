@@ -17,7 +17,7 @@ from sim.check.result import CheckResult
 from sim.check.settings import CheckSettings
 from sim.cli.check.outputs import Output, write
 from sim.show.findings import FORMATS
-from sim.show.findings.options import Options
+from sim.show.findings.wording import Options
 
 REMARKED = "N1: B9900B0B9900GXL4//切入\n"
 

@@ -11,9 +11,9 @@ import pytest
 from command import run_command, run_inside
 from PIL import Image
 
-from sim.show.film import film, writers
-from sim.show.film.film import format_of
+from sim.show.film import writers
 from sim.show.film.screen import Look, Screen
+from sim.show.film.writers import format_of
 
 PART = "B600 B0 B600 GX L1 B0 B600 B600 GY L2 B600 B0 B600 GX L3 B0 B600 B600 GY L4 DD"
 FAULTY = PART.replace("B600 B0 B600 GX L3", "B600 B0 B600 GX L7")
@@ -179,7 +179,7 @@ def test_animated_pictures_may_be_as_large_as_memory_allows(tmp_path: Path) -> N
     look = Look(1280, 720, "light", "en")
     assert format_of(tmp_path / "cut.WEBP", 10.0, 60, look).holds_frames
     assert not format_of(tmp_path / "cut.mp4", 600.0, 60, look).holds_frames
-    assert film.FORMAT_NAMES.split(", ") == [*writers.FORMATS]
+    assert writers.FORMAT_NAMES.split(", ") == [*writers.FORMATS]
 
 
 def test_a_page_plays_the_run_as_that_of_a_run_does(part: Path, tmp_path: Path) -> None:

@@ -7,7 +7,7 @@ import pytest
 from checking import SOUND, WRONG_AXIS, drycut
 from command import run_inside
 
-from sim.base.workers.processes import Processes
+from sim.base.workers.rounds import Processes
 from sim.check.file_check import check_file
 from sim.check.parallel import check_files
 from sim.check.result import CheckResult, Silenced

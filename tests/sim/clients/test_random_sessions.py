@@ -11,7 +11,7 @@ from controller import GECard
 from controller.card.core.settings import CardSettings, Switches
 from controller.card.log import CardLog
 from controller.stepping.pulses import Pulses
-from sim.cli.card_client import ClientOptions, scenario_of
+from sim.cli.card import ClientOptions, scenario_of
 from sim.clients.run import Read, read_again, run_client
 from sim.clients.session import session_of
 

@@ -9,9 +9,8 @@ from paths import Pen
 from traced import STEEL, F, kerf_along, square
 
 from parser.toolpath import Point, Toolpath
-from sim.cut.kerf.last_beside import NOBODY, last_beside
 from sim.cut.kerf.swept import Kerf
-from sim.cut.kerf.ways import rows_that_made
+from sim.cut.kerf.ways import NOBODY, last_beside, rows_that_made
 from sim.cut.pieces.pieces import pieces_of
 
 

@@ -9,16 +9,16 @@ from paths import Pen
 from traced import STEEL, F, kerf_along, pieces_along, trace_of
 
 from parser.toolpath import Toolpath
+from sim.cut import sizes
 from sim.cut.kerf.nominal import nominal_region
-from sim.cut.kerf.stars import SIMPLER_UM, rays, stars
+from sim.cut.kerf.shapes import SIMPLER_UM, rays, stars
 from sim.cut.kerf.ways import rows_that_made
-from sim.cut.pieces import kept_edges, moments
+from sim.cut.pieces import frees, kept_edges
 from sim.cut.pieces.kept_edges import lie_on
 from sim.cut.pieces.pieces import pieces_of
 from sim.cut.play import freedom
 from sim.cut.play.freedom import plays_of
-from sim.cut.sizes import nominal_parts
-from sim.cut.sizes.sizes import sizes_of
+from sim.cut.sizes import sizes_of
 
 
 def lattice(lines: int) -> Toolpath:
@@ -49,7 +49,7 @@ def flower() -> Toolpath:
 def test_pieces_come_free_in_their_boxes_as_in_all_of_the_stock(path, monkeypatch):
     kerf = kerf_along(path)
     near = pieces_of(kerf, None, STEEL).freed
-    monkeypatch.setattr(moments, "_BESIDE", 1e6)
+    monkeypatch.setattr(frees, "_BESIDE", 1e6)
     whole = pieces_of(kerf, None, STEEL).freed
     assert len(near) > 8
     assert len({piece.freed for piece in near}) < len(near) or path.length_um.max() < 1000
@@ -75,8 +75,8 @@ def test_parts_alone_in_a_hole_come_free_when_a_larger_box_would_tell_that_they_
     kerf = kerf_along(loops(seed))
     near = pieces_of(kerf, None, STEEL).freed
     skipped = []
-    alone = moments._alone
-    monkeypatch.setattr(moments, "_alone", lambda cutting: (skipped.extend(alone(cutting)), set())[1])
+    alone = frees._alone
+    monkeypatch.setattr(frees, "_alone", lambda cutting: (skipped.extend(alone(cutting)), set())[1])
     asked = pieces_of(kerf, None, STEEL).freed
     assert skipped
     assert [piece.freed for piece in near] == [piece.freed for piece in asked]
@@ -103,7 +103,7 @@ def test_what_is_kept_has_the_sizes_near_it_that_it_has_in_all_of_the_stock(path
     kerf = kerf_along(path, trace_of(path, stray=lambda place, row: place * 1.001))
     pieces = pieces_of(kerf, None, STEEL)
     near = sizes_of(path, kerf, pieces, None)
-    monkeypatch.setattr(nominal_parts, "_BESIDE", 1e6)
+    monkeypatch.setattr(sizes, "_BESIDE", 1e6)
     whole = sizes_of(path, kerf, pieces, None)
     assert len(near.boxes) > 3
     assert near.radii == whole.radii

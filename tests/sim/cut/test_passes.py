@@ -9,7 +9,7 @@ from traced import STEEL, F, exactly, kerf_along, trace_of
 
 from parser.toolpath import Toolpath
 from sim.cut.pieces.pieces import Piece, Pieces, pieces_of
-from sim.cut.sizes.sizes import Sizes, sizes_of
+from sim.cut.sizes import Sizes, sizes_of
 
 W, H, R = 4000.0, 3000.0, 500.0
 OFFSETS = (160.0, 120.0, 100.0)

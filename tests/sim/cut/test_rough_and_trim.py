@@ -12,7 +12,7 @@ from traced import STEEL, contours_of, trace_of
 from parser.program import parse_program
 from sim.cut.kerf.swept import kerf_of
 from sim.cut.pieces.pieces import Pieces, pieces_of
-from sim.cut.sizes.sizes import Sizes, sizes_of
+from sim.cut.sizes import Sizes, sizes_of
 
 ROUNDED_UM = 4.0  # ends in whole µm, and the edges of a table that stands on whole µm
 COUNTED_UM = 10.0  # a trim that takes less of a loose piece runs along its own kerf again

@@ -13,7 +13,7 @@ from traced import STEEL, F, exactly, kerf_along, square, trace_of
 from parser.toolpath import Toolpath
 from sim.cut.kerf.swept import kerf_of
 from sim.cut.pieces.pieces import pieces_of
-from sim.cut.sizes.sizes import Sizes, fitted_circles, sizes_of
+from sim.cut.sizes import Sizes, fitted_circles, sizes_of
 
 
 def sizes(path: Toolpath, stray=exactly) -> Sizes:

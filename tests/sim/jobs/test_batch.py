@@ -13,11 +13,10 @@ from jsonschema import Draft202012Validator
 from places import ROOT
 from shops import TINY, instead_of_running, make_shop, rows, run_folder
 
-import sim.jobs.task
+import sim.jobs.batch
 from parser.findings.errors import ClusterError
 from parser.program import read_program
-from sim.base.workers.makers import made_by
-from sim.base.workers.processes import Processes
+from sim.base.workers.rounds import Processes, made_by
 from sim.jobs.run_into import FILES, run_into
 from sim.setup.scenario import Scenario, load_scenario
 from sim.setup.wire import Wire
@@ -31,7 +30,7 @@ def shop(tmp_path: Path) -> Path:
 @pytest.fixture
 def quick(monkeypatch: pytest.MonkeyPatch) -> None:
     """Nothing is run."""
-    monkeypatch.setattr("sim.jobs.task._run", instead_of_running)
+    monkeypatch.setattr("sim.jobs.batch._run", instead_of_running)
 
 
 def complaints(out: Path) -> list[str]:
@@ -114,7 +113,7 @@ def test_settings_drawing_and_version_count_and_their_places_do_not(
         (lambda: monkeypatch.setattr("sim.jobs.batch.made_by", lambda: (("drycut", "9.9"),)), False),
     ):
         change()
-        monkeypatch.setattr("sim.jobs.task.refuse_other_makers", lambda asked: None)
+        monkeypatch.setattr("sim.jobs.batch.refuse_other_makers", lambda asked: None)
         run_folder(shop, out)
         assert rows(out)["00.3b"]["from_cache"] == is_kept
 
@@ -255,12 +254,12 @@ def test_the_command_tells_what_came_of_it(
 def test_a_program_that_kills_its_worker_is_told_and_the_others_are_run(
     shop: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def killing(task: sim.jobs.task.Task, folder: Path) -> sim.jobs.task.Done:
+    def killing(task: sim.jobs.batch.Task, folder: Path) -> sim.jobs.batch.Done:
         if task.name == "01.3b":
             os.kill(os.getpid(), signal.SIGKILL)
         return instead_of_running(task, folder)
 
-    monkeypatch.setattr("sim.jobs.task._run", killing)
+    monkeypatch.setattr("sim.jobs.batch._run", killing)
     batch = run_folder(shop, tmp_path / "out", Processes(2))
     assert [row["verdict"] for row in batch.document["programs"]] == ["pass", "fault", "pass"]
     assert "its process ended at once" in batch.document["programs"][1]["message"]

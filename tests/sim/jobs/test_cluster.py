@@ -19,7 +19,7 @@ from shops import TINY, make_shop, rows, run_folder
 from parser.findings.errors import ClusterError
 from parser.program import read_program
 from sim.base.workers.cluster import _caller, cluster
-from sim.base.workers.processes import Processes
+from sim.base.workers.rounds import Processes
 from sim.check.file_check import Job, check_any
 from sim.check.parallel import check_files
 from sim.check.settings import CheckSettings

@@ -7,7 +7,7 @@ import pytest
 from runs import plain_scenario
 
 from parser.findings.errors import SettingsError
-from sim.jobs.source import Source, program_read
+from sim.jobs.shop import Source, program_read
 from sim.setup.making import ToMake, Writing
 from sim.setup.program_section import refuse_misfits
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import shapely
 
-from sim.measure.compare.as_cut import coarser
+from sim.measure.compare.rings import coarser
 
 
 @pytest.mark.parametrize("seed", range(8))

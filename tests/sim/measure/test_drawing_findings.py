@@ -13,9 +13,9 @@ from parser.findings.errors import DrawingError
 from parser.program import parse_program
 from parser.toolpath import Point
 from sim.base.progress import silent
-from sim.measure.compare.as_cut import edge_as_cut
-from sim.measure.compare.compared_program import compare_program
+from sim.measure.compare.compare import compare_program
 from sim.measure.compare.result import FitRequest
+from sim.measure.compare.rings import edge_as_cut
 from sim.run.dryrun import DryRun
 from sim.run.running import dry_run
 from sim.setup.part import DrawingTarget

@@ -10,7 +10,7 @@ from sound_shapes import Shape
 
 from parser.findings.catalogue import remark_text
 from parser.program import parse_program
-from sim.measure.compare.compared_program import compare_program
+from sim.measure.compare.compare import compare_program
 from sim.measure.compare.findings import drawing_findings
 from sim.measure.compare.result import Comparison, FitRequest
 

@@ -21,12 +21,10 @@ from traced import STEEL, kerf_along
 from parser.program import parse_program
 from parser.toolpath import Toolpath
 from sim.cut.pieces.pieces import pieces_of
-from sim.measure.compare.as_cut import edge_as_cut
-from sim.measure.compare.compare import compare
-from sim.measure.compare.compared_program import compare_program
+from sim.measure.compare.compare import compare, compare_program
 from sim.measure.compare.program_edge import edge_at, program_edges
 from sim.measure.compare.result import Comparison, FitRequest
-from sim.measure.compare.rings import polygon
+from sim.measure.compare.rings import edge_as_cut, polygon
 
 ASKED = FitRequest(6.0)
 """A CAM that rounds ends of arcs drifts by some µm over many of them."""

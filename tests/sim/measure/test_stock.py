@@ -10,7 +10,7 @@ from rough_and_trim import REACH_UM, RoughAndTrim, TruePass, rough_and_trim
 from parser.geometry.curves import Curves, Floats, curves_between
 from parser.program import parse_program
 from parser.shape.passes import Pass, find_passes
-from sim.measure.passes.stock import WireTaken, stocks_of
+from sim.measure.passes import WireTaken, stocks_of
 from sim.show.draw.flatten import along
 
 SPACING_UM = 5.0

@@ -9,9 +9,9 @@ from runs import scenario_run
 
 from parser.program import parse_program
 from parser.toolpath import Toolpath
-from sim.jobs.source import program_read, source_of
+from sim.jobs.shop import program_read, source_of
 from sim.measure.threadings import threadings
-from sim.run.offsetting import as_run
+from sim.run.prepare import as_run
 from sim.run.report import build_report
 from sim.setup.scenario import load_scenario
 

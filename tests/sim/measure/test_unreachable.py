@@ -12,7 +12,7 @@ from drawings import Arc, Line
 from rough_and_trim import outline
 from sound_shapes import SHAPES, Shape, placed
 
-from sim.measure.compare.compared_program import compare_program
+from sim.measure.compare.compare import compare_program
 from sim.measure.compare.findings import by_entity, corner_places
 from sim.measure.compare.result import FitRequest
 from sim.measure.compare.rings import polygon as filled

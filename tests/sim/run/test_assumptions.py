@@ -15,7 +15,7 @@ from sim.run.running import dry_run
 from sim.setup.machine.machine import load_machine
 from sim.setup.scenario import load_scenario
 from sim.setup.wire import DEFAULT_WIRE
-from sim.show.assumptions import taken_for_granted
+from sim.show.refusals import taken_for_granted
 from sim.show.terminal.run import print_summary
 
 LINE = "B100B0B100GXL1 DD"

@@ -7,7 +7,7 @@ from runs import machine
 from parser.controller_words import Axis
 from sim.base.progress import silent
 from sim.run.ballbar.circle import Ballbar, circle_test, run_test
-from sim.run.ballbar.parts import DeviationParts
+from sim.run.ballbar.figures import DeviationParts
 
 RADIUS_UM = 10_000.0
 FEED_UM_S = 4_000.0

@@ -17,7 +17,7 @@ from parser.findings.errors import ProgramError, SettingsError
 from parser.program import Program, parse_program
 from sim.base.progress import silent
 from sim.run.dryrun import DryRun
-from sim.run.offsetting import as_run
+from sim.run.prepare import as_run
 from sim.run.report import build_report
 from sim.run.running import dry_run
 from sim.setup.part import Offset, OffsetPass

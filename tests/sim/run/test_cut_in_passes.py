@@ -26,13 +26,12 @@ from parser.geometry.along import places_at
 from parser.geometry.curves import CurveKind, Curves, Floats
 from parser.program import parse_program
 from parser.shape.passes import find_passes
-from sim.check.pass_over_round import Offsetting
+from sim.check.offset import Offsetting
 from sim.run.course import findings_of
-from sim.run.offsetting import offsetting
-from sim.run.prepare import Prepared, prepare
+from sim.run.prepare import Prepared, offsetting, prepare
 from sim.run.report import build_report
 from sim.setup.part import Direction, Offset, OffsetPass
-from sim.show.pictures.cut.flags import places_um
+from sim.show.pictures.cut.marks import places_um
 from sim.show.pictures.motion.panels import feed_levels
 
 REACH_UM = 100.0

@@ -13,7 +13,7 @@ from controller.offset.chain import RowOrigin
 from controller.offset.shifted import OffsetSection, Side, rounds_of
 from parser.program import parse_program
 from parser.toolpath import Toolpath
-from sim.run.offsetting import offsetting
+from sim.run.prepare import offsetting
 from sim.run.report import build_report
 from sim.setup.part import Offset, OffsetPass
 

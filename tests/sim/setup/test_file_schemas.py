@@ -13,8 +13,8 @@ from schema_pages import pages
 
 from parser.findings.errors import DrycutError
 from sim.check.settings import read as settings_files
-from sim.check.settings.schema import settings_schema
-from sim.setup.file_schemas import machine_schema, scenario_schema
+from sim.check.settings.read import settings_schema
+from sim.setup.key_tables import machine_schema, scenario_schema
 from sim.setup.machine.machine import load_machine
 from sim.setup.scenario import load_scenario
 

@@ -6,8 +6,8 @@ import pytest
 
 from controller.offset.shifted import Side
 from parser.findings.errors import SettingsError
-from sim.cli.lengths import Lengths
-from sim.cli.overrides import Overrides, overridden
+from sim.cli.options import Lengths
+from sim.cli.scenario_options import Overrides, overridden
 from sim.setup.part import DrawingTarget, Offset, OffsetPass
 from sim.setup.scenario import MACHINE_FILE, load_scenario, scenario_sections
 from sim.setup.toml.keys import toml_text

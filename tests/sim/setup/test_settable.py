@@ -7,11 +7,11 @@ import pytest
 from command import run_inside
 
 from parser.findings.errors import SettingsError
-from sim.cli.lengths import parameter
-from sim.cli.overrides import overridden, overrides_of
+from sim.cli.options import parameter
+from sim.cli.scenario_options import overridden, overrides_of
 from sim.serve.page.form import scenario_of
 from sim.serve.page.runs import KEYS
-from sim.setup.file_schemas import scenario_schema
+from sim.setup.key_tables import scenario_schema
 from sim.setup.settable import FIELDS, SETTABLE
 from sim.setup.toml.keys import Key
 from sim.setup.toml.kinds import Number

@@ -13,11 +13,10 @@ from parser.program import parse_program
 from sim.setup.obstacles import Outline, read_outline
 from sim.show.draw import style
 from sim.show.draw.layout import Box
-from sim.show.draw.paints import LIGHT, Paint
 from sim.show.draw.sheet import pixels
-from sim.show.pictures.cut.outlines import Bodies, _hatching, _within
+from sim.show.draw.style import LIGHT, Paint
 from sim.show.pictures.cut.picture import draw_cut, layout_of
-from sim.show.pictures.cut.subject import NOTHING, Cut
+from sim.show.pictures.cut.subject import NOTHING, Bodies, Cut, _hatching, _within
 
 SQUARE = "B10000B0B10000GXL1 B0B10000B10000GYL2 B10000B0B10000GXL3 B0B10000B10000GYL4 DD"
 TOOLPATH = parse_program(SQUARE).toolpath

@@ -12,9 +12,15 @@ from recorder import Recorder
 
 from sim.show.draw.chart import AxisRange, Chart, draw_band, draw_chart, draw_level, draw_line, range_of, tick_texts
 from sim.show.draw.layout import Box
-from sim.show.draw.paints import DARK, LIGHT, THEMES, Paint, Theme
 from sim.show.draw.raster import Raster
 from sim.show.draw.sheet import drawing, pixels
+from sim.show.draw.style import (
+    DARK,
+    LIGHT,
+    THEMES,
+    Paint,
+    Theme,
+)
 from sim.show.draw.svg import MOST_PLACES, Svg
 
 SVG = "{http://www.w3.org/2000/svg}"

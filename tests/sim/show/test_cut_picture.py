@@ -19,14 +19,14 @@ from traced import F, kerf_along, pieces_along, square, trace_of
 from parser.findings.codes import CODES
 from parser.findings.findings import Finding
 from parser.toolpath import Stop, Toolpath
-from sim.cut.sizes.sizes import sizes_of
+from sim.cut.sizes import sizes_of
 from sim.run.recording import pieces_of_run
 from sim.show.draw import style
 from sim.show.draw.flatten import flatten
 from sim.show.draw.layout import Box, Page
-from sim.show.draw.paints import DARK, Paint
 from sim.show.draw.sheet import drawing, pixels
-from sim.show.pictures.cut.flags import flag_reach, flags_of, places_um
+from sim.show.draw.style import DARK, Paint
+from sim.show.pictures.cut.marks import flag_reach, flags_of, places_um
 from sim.show.pictures.cut.of_run import draw_cut_of_run
 from sim.show.pictures.cut.picture import draw_cut, layout_of
 from sim.show.pictures.cut.sizes import length_text, sizes_of_cut

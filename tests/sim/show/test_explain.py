@@ -13,8 +13,16 @@ from parser.findings.catalogue import LANGUAGES, Language, example, page
 from parser.findings.codes import CODES
 from parser.text.places import cells
 from sim.show.findings.pages import page_text
-from sim.show.terminal.documents import cited, document, documents, files, section, title
-from sim.show.terminal.markdown import plain, shown_lines
+from sim.show.terminal.markdown import (
+    cited,
+    document,
+    documents,
+    files,
+    plain,
+    section,
+    shown_lines,
+    title,
+)
 
 RAW = re.compile(r"`|\*\*\w|\w\*\*|^#|\]\(|\.md\b|<!--|^\|", re.MULTILINE)
 

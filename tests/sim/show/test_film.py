@@ -16,11 +16,10 @@ from sim.run.course import Course, course_of
 from sim.run.recording import recorded
 from sim.run.report import build_report
 from sim.show.draw.layout import Box, View, centred
-from sim.show.draw.paints import LIGHT, Paint
+from sim.show.draw.style import LIGHT, Paint
 from sim.show.film.cut_map import FULL, CutMap, Discs, Span, discs_of
-from sim.show.film.ground import near_runs, outlines_um
 from sim.show.film.readout import bar_of, last_event, read_out
-from sim.show.film.scene import layout_for
+from sim.show.film.scene import layout_for, near_runs, outlines_um
 from sim.show.film.screen import THE_WIRE, WIRE, Look, Screen
 from sim.show.film.writers import FilmClock
 from sim.show.keys import OF_PAGE

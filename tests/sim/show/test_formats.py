@@ -25,8 +25,8 @@ from sim.check.result import CheckResult, Coverage, FailOn
 from sim.check.settings import CheckSettings
 from sim.check.settings.read import FAIL_ON
 from sim.show.findings import FORMATS, render
-from sim.show.findings.options import Options
-from sim.show.findings.tidy import spot
+from sim.show.findings.totals import spot
+from sim.show.findings.wording import Options
 from sim.show.terminal.printer import printed_text
 
 SCHEMAS = {

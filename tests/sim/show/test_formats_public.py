@@ -13,7 +13,7 @@ from jsonschema import Draft4Validator
 from parser.findings.catalogue import LANGUAGES, Language
 from sim.check.settings.read import FAIL_ON
 from sim.show.findings import render
-from sim.show.findings.options import Options
+from sim.show.findings.wording import Options
 
 FOLDER = os.environ.get("DRYCUT_PUBLIC_SCHEMAS")
 pytestmark = [

@@ -7,7 +7,7 @@ from places import ROOT
 
 from parser.findings.catalogue import LANGUAGES
 from sim.show.pictures.gallery import PICTURES
-from sim.show.pictures.plan.picture import PLAN
+from sim.show.pictures.plan import PLAN
 from sim.show.texts.texts import Words, texts
 
 COUNTS = ["no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve"]

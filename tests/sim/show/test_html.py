@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from jinja2 import UndefinedError
 
 from parser.findings.catalogue import Bilingual
-from sim.show.draw.paints import DARK, LIGHT, Paint
+from sim.show.draw.style import DARK, LIGHT, Paint
 from sim.show.html.environment import rendered, script_json, theme_css
 
 EVIL = "</script><script>alert(1)</script><!-- & \u2028\u2029 ]]>"

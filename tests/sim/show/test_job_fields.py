@@ -6,8 +6,8 @@ from runs import run_folder
 
 from sim.run.recording import pieces_of_run
 from sim.run.report.document import build_report
+from sim.setup.part import JobFields
 from sim.setup.scenario import load_scenario
-from sim.setup.work import JobFields
 from sim.show.report_page.sheet import sheet_of
 
 SCENARIO = """\

@@ -8,7 +8,7 @@ from recorder import Recorder
 from sim.show.draw import style
 from sim.show.draw.layout import Box
 from sim.show.draw.legend import Entry, Legend, LegendSizes, draw_at_foot, draw_legend, in_columns, in_rows, stroke
-from sim.show.draw.paints import Paint
+from sim.show.draw.style import Paint
 
 WIDTH_PX, HEIGHT_PX = 1600, 900
 LINE = stroke(Paint.INK, 2.0)

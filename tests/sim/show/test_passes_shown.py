@@ -16,8 +16,13 @@ from parser.shape.passes import Pass
 from sim.run.course import course_of
 from sim.run.recording import Recording
 from sim.run.report import build_report
-from sim.show.draw.paints import LIGHT, Paint, paint_of_pass, tones_of
 from sim.show.draw.sheet import pixels
+from sim.show.draw.style import (
+    LIGHT,
+    Paint,
+    paint_of_pass,
+    tones_of,
+)
 from sim.show.film.readout import read_out
 from sim.show.film.screen import Look, Screen
 from sim.show.pictures.cut.of_run import draw_cut_of_run

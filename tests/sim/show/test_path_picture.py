@@ -15,8 +15,8 @@ from parser.dialect.reader import Choices
 from parser.program import parse_program, read_program
 from sim.run.recording import NO_PIECES, Recording
 from sim.setup.scenario import load_scenario
-from sim.show.draw.paints import DARK, Paint
 from sim.show.draw.sheet import pixels
+from sim.show.draw.style import DARK, Paint
 from sim.show.pictures.cut.of_path import Programmed, draw_path, programmed
 from sim.show.pictures.gallery import subject_of
 from sim.show.pictures.path import PATH, PathAlone

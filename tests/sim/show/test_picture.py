@@ -18,14 +18,13 @@ from parser.geometry.curves import CurveKind
 from parser.program import parse_program
 from parser.toolpath import Toolpath
 from sim.show.draw import style
-from sim.show.draw.flatten import along, bounds_um, flatten
+from sim.show.draw.flatten import along, bounds_um, flatten, simplify
 from sim.show.draw.labels import Anchors, Ink, Room, number_stride, place_numbers
 from sim.show.draw.layout import Box, mm_text, nice_below, page_for, ticks
 from sim.show.draw.legend import elide
-from sim.show.draw.paints import LIGHT, Paint
 from sim.show.draw.raster import Raster
 from sim.show.draw.sheet import pixels
-from sim.show.draw.simplify import simplify
+from sim.show.draw.style import LIGHT, Paint
 from sim.show.pictures.cut.picture import draw_cut
 from sim.show.pictures.cut.subject import Cut
 from sim.table.trace import Trace

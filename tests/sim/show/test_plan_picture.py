@@ -16,9 +16,9 @@ from sim.make.cam.model import CutPlan
 from sim.setup.machine.machine import load_machine
 from sim.setup.making import Making
 from sim.setup.scenario import Scenario
-from sim.show.draw.paints import DARK, LIGHT, Paint
 from sim.show.draw.sheet import drawing, pixels
-from sim.show.pictures.plan.picture import draw_plan, plan_bounds_um
+from sim.show.draw.style import DARK, LIGHT, Paint
+from sim.show.pictures.plan import draw_plan, plan_bounds_um
 
 SCENARIO = Scenario("part", Path("part.3b"), load_machine("dk7740"))
 PASSES_UM = 180.0, 120.0, 100.0

@@ -22,15 +22,14 @@ from controller.stepping.pulses import Pulses
 from parser.findings.catalogue import Bilingual
 from parser.findings.errors import SettingsError
 from parser.program import parse_program, read_program
-from sim.measure.deviation.meters import BlockSteps
+from sim.measure.deviation.causes import BlockSteps
 from sim.run.dryrun import DryRun
 from sim.setup import quiz
 from sim.setup.machine.machine import load_machine
 from sim.setup.part import Offset, OffsetPass
 from sim.setup.quiz import About, Question, WrittenQuestion, read_quiz, refuse_unanswerable
 from sim.setup.scenario import load_scenario
-from sim.show.replay.answers import written_out
-from sim.show.replay.asked_block import AskedBlock, in_mm
+from sim.show.replay.answers import AskedBlock, in_mm, written_out
 from sim.show.replay.quiz import IN_A_SET, SETS, question_entries, quiz_of, sets_of
 
 KINDS: tuple[About, ...] = get_args(About)

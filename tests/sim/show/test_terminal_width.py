@@ -9,9 +9,8 @@ from command import run_inside
 from places import SCENARIOS
 
 from parser.text.places import cells
-from sim.show.terminal.colours import styled
 from sim.show.terminal.layout import show, table
-from sim.show.terminal.printer import say
+from sim.show.terminal.printer import say, styled
 
 SHORT = "B500B0B500GXL1 B0B500B500GYL2 B500B0B500GXL3 B0B500B500GYL4 DD"
 

@@ -17,7 +17,7 @@ from sim.check.result import CheckResult
 from sim.check.settings import CheckSettings
 from sim.setup.machine.machine import load_machine
 from sim.show.findings import render
-from sim.show.findings.options import Options
+from sim.show.findings.wording import Options
 from sim.show.terminal.finding import LABELS
 from sim.show.terminal.wrap import width_of, wrapped
 

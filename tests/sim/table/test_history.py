@@ -16,8 +16,16 @@ from controller.motion.limits import Feeds
 from controller.stepping.pulses import Pulses
 from parser.geometry.curves import Floats
 from sim.setup.machine.machine import load_machine
-from sim.table.record.bins import Bins, Envelope, Values, binned
-from sim.table.record.history import BINS, LEAST_BINS, QUANTITIES, History
+from sim.table.record.history import (
+    BINS,
+    LEAST_BINS,
+    QUANTITIES,
+    Bins,
+    Envelope,
+    History,
+    Values,
+    binned,
+)
 
 WAVES = pulses_of(lambda t: 400.0 * np.sin(20.0 * t), lambda t: 300.0 * np.sin(31.0 * t), 0.5)
 HELD = MODEL._replace(friction_n=(30.0, 20.0), backlash_um=(3.0, 2.0), drive_damping_ratio=0.7)

@@ -10,7 +10,13 @@ from sim.setup.machine.machine import load_machine
 from sim.setup.machine.table_model import Motor, TableModel
 from sim.table.motion import Moved
 from sim.table.record.history import QUANTITIES
-from sim.table.when.ticks import SHAKEN_RAD, STEP_RAD, STEPS_RAD, Ticks, rhythm
+from sim.table.ticks import (
+    SHAKEN_RAD,
+    STEP_RAD,
+    STEPS_RAD,
+    Ticks,
+    rhythm,
+)
 
 WITHIN_UM = 0.01
 NEAR_A_STOP = (150.0, 250_000.0)

@@ -13,7 +13,7 @@ from sim.setup.machine.machine import load_machine
 from sim.table import follow
 from sim.table.motion import Moved, motion_of
 from sim.table.record.history import QUANTITIES
-from sim.table.when.ticks import Ticks, choose_ticks, rhythm
+from sim.table.ticks import Ticks, choose_ticks, rhythm
 
 BEATS = rhythm(MODEL._replace(drive_damping_ratio=0.7))
 

@@ -16,7 +16,7 @@ from parser.drawing.read import read_drawing
 from parser.findings.catalogue import LANGUAGES, remark_text
 from parser.findings.errors import DrycutError
 from parser.program import Program, read_program
-from sim.measure.compare.compared_program import compare_program
+from sim.measure.compare.compare import compare_program
 from sim.measure.compare.result import FitRequest
 from sim.run.report.drawing import document_text
 

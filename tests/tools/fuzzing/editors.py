@@ -16,9 +16,8 @@ from parser.findings.catalogue import LANGUAGES
 from parser.findings.findings import edited
 from parser.program import parse_program
 from sim.check.file_check import as_typed
-from sim.serve.editor.places import Places, Text
 from sim.serve.editor.server import actions_of, diagnostics_of
-from sim.serve.editor.shown import hover_of, layout_of, outline_of
+from sim.serve.editor.shown import Places, Text, hover_of, layout_of, outline_of
 
 _ENCODINGS = tuple(types.PositionEncodingKind)
 _NAMES = ("part.3b", "part.iso", "part.pmc", "untitled")

@@ -22,7 +22,7 @@ from sim.check.file_check import Job, check_file
 from sim.check.result import CheckResult
 from sim.check.settings import CheckSettings
 from sim.show.findings import FORMATS, render
-from sim.show.findings.options import Options
+from sim.show.findings.wording import Options
 
 _SETTINGS = (CheckSettings(), CheckSettings(wire_diameter_um=180.0), CheckSettings(may_stay_open=True))
 _FILE = "fuzz.3b"

@@ -122,7 +122,7 @@
  */
 
 /**
- * A program in a list (sim/serve/page/row.py).
+ * A program in a list (sim/serve/page/programs.py).
  * @typedef {object} Row
  * @property {string} file
  * @property {string} title

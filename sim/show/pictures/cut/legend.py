@@ -24,12 +24,19 @@ from sim.show.draw.legend import (
     rows_in_columns,
     stroke,
 )
-from sim.show.draw.paints import Paint, paint_of_pass, tones_of
-from sim.show.pictures.cut.flags import draw_flag, places_um
-from sim.show.pictures.cut.marks import draw_end, draw_number, draw_pause, draw_start, number_size, pauses
+from sim.show.draw.style import Paint, paint_of_pass, tones_of
+from sim.show.pictures.cut.marks import (
+    draw_end,
+    draw_flag,
+    draw_number,
+    draw_pause,
+    draw_start,
+    number_size,
+    pauses,
+    places_um,
+)
 from sim.show.pictures.cut.off_drawing import off_entries
-from sim.show.pictures.cut.outlines import draw_clamp, draw_work
-from sim.show.pictures.cut.subject import Cut
+from sim.show.pictures.cut.subject import Cut, draw_clamp, draw_work
 from sim.show.texts import Words
 
 COLUMNS: Final = 3

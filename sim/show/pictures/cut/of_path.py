@@ -14,15 +14,14 @@ from parser.program import Program
 from parser.shape.passes import find_passes
 from parser.toolpath import Toolpath
 from parser.units import from_mm, mm
-from sim.check.compensation.words import compensation_of, is_known
-from sim.check.pass_over_round import Offsetting
+from sim.check.compensation.check import compensation_of, is_known
+from sim.check.offset import Offsetting
 from sim.run.findings import outcome
 from sim.run.prepare import checked_for, prepare
 from sim.setup.scenario import Scenario
 from sim.show.draw.sheet import AnyCanvas, Sheet
-from sim.show.pictures.cut.outlines import Bodies
 from sim.show.pictures.cut.picture import draw_cut
-from sim.show.pictures.cut.subject import Cut
+from sim.show.pictures.cut.subject import Bodies, Cut
 from sim.show.texts import Words
 from sim.table.trace import origin_um
 

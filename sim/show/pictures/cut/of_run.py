@@ -4,8 +4,7 @@ from sim.cut.pieces.pieces import Pieces
 from sim.run.dryrun import DryRun
 from sim.show.draw.sheet import AnyCanvas, Sheet
 from sim.show.pictures.cut.of_path import bodies_of, note_of, travel_um
-from sim.show.pictures.cut.picture import draw_cut
-from sim.show.pictures.cut.shapes import Shapes
+from sim.show.pictures.cut.picture import Shapes, draw_cut
 from sim.show.pictures.cut.subject import Cut
 from sim.show.texts import Words
 from sim.show.texts.phrases import lasting

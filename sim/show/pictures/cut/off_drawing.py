@@ -11,15 +11,14 @@ import numpy as np
 from parser.geometry.curves import Floats
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
-from sim.show.draw.flatten import flatten
+from sim.show.draw.flatten import CHORD_PX, flatten, simplify
 from sim.show.draw.layout import Page, View, nice_below
 from sim.show.draw.legend import Entry, stroke
-from sim.show.draw.paints import Paint
-from sim.show.draw.simplify import CHORD_PX, simplify
+from sim.show.draw.style import Paint
 from sim.show.texts import Words
 
 if TYPE_CHECKING:  # of a path no comparison is known
-    from sim.measure.compare.strips import Strips
+    from sim.measure.compare.result import Strips
 
 _SEEN: Final = 7.0
 """Units that the widest strip is drawn wide, at least."""

@@ -1,9 +1,11 @@
 """The picture of a cut: work, kerf and pieces, the path and where the wire was, and what the shop needs to read it.
 
 The travel of the table: its border where it lies in the plot, and the whole table, small, in the head.
+
+The shapes of a cut in a view, worked out once: in pixels and in both languages the same ones are drawn.
 """
 
-from typing import Final, NamedTuple
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 import numpy as np
 
@@ -11,24 +13,74 @@ from parser.geometry.curves import Floats
 from parser.units import mm
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
+from sim.show.draw.flatten import simplify
 from sim.show.draw.labels import Ink, Room
 from sim.show.draw.layout import BESIDE_PLOT, IN_PLOT, Box, Margins, Page, View, page_for
 from sim.show.draw.legend import Entry, draw_axes, draw_frame, draw_header
-from sim.show.draw.paints import Paint
 from sim.show.draw.sheet import AnyCanvas, Sheet
-from sim.show.draw.simplify import simplify
-from sim.show.pictures.cut.areas import Areas, draw_areas, draw_labels
-from sim.show.pictures.cut.flags import draw_flags, flag_reach, flags_of
+from sim.show.draw.style import Paint
 from sim.show.pictures.cut.legend import Drawn, Surroundings, draw_legends, entries, finding_entries, rows_for
-from sim.show.pictures.cut.lines import Lines, draw_kerf, draw_lines, path_bounds_um, shown_bounds_um
-from sim.show.pictures.cut.marks import draw_arrows, draw_ends, draw_numbers, draw_pauses
+from sim.show.pictures.cut.lines import (
+    Areas,
+    Lines,
+    areas_of,
+    draw_areas,
+    draw_kerf,
+    draw_labels,
+    draw_lines,
+    lines_of,
+    path_bounds_um,
+    shown_bounds_um,
+)
+from sim.show.pictures.cut.marks import (
+    draw_arrows,
+    draw_ends,
+    draw_flags,
+    draw_numbers,
+    draw_pauses,
+    flag_reach,
+    flags_of,
+)
 from sim.show.pictures.cut.off_drawing import draw_off
-from sim.show.pictures.cut.outlines import clamps_on, draw_bodies, works_on
-from sim.show.pictures.cut.shapes import Shapes
-from sim.show.pictures.cut.size_lines import Extents, draw_extents, draw_rounds, extents_of
-from sim.show.pictures.cut.sizes import CutSizes, sizes_of_cut
-from sim.show.pictures.cut.subject import Board, Cut
+from sim.show.pictures.cut.sizes import CutSizes, Extents, draw_extents, draw_rounds, extents_of, sizes_of_cut
+from sim.show.pictures.cut.subject import Board, Cut, clamps_on, draw_bodies, works_on
 from sim.show.texts import Words
+
+if TYPE_CHECKING:
+    from sim.measure.compare.result import Comparison, Strips
+
+
+class Shapes:
+    """Lines and areas of one cut, kept for each view that asked for them, and where it is off its drawing."""
+
+    def __init__(self) -> None:
+        self._lines: dict[View, Lines] = {}
+        self._areas: dict[View, Areas] = {}
+        self._strips: tuple[Strips | None] | None = None  # once it was worked out
+
+    def lines(self, cut: Cut, view: View) -> Lines:
+        """The lines of the cut in a view."""
+        if view not in self._lines:
+            self._lines[view] = lines_of(cut, view)
+        return self._lines[view]
+
+    def strips(self, comparison: "Comparison | None") -> "Strips | None":
+        """Where the edge of the cut is off its drawing; None where it is nowhere, or there is none."""
+        if comparison is None:
+            return None
+        from sim.measure.compare.result import strips_of  # noqa: PLC0415 - of a path no comparison is known
+
+        if self._strips is None:
+            self._strips = (strips_of(comparison),)
+        return self._strips[0]
+
+    def areas(self, cut: Cut, view: View) -> Areas:
+        """The areas of the pieces of the cut in a view; none where no pieces are known."""
+        if cut.pieces is None:
+            return Areas([], [])
+        if view not in self._areas:
+            self._areas[view] = areas_of(cut.pieces, view)
+        return self._areas[view]
 
 
 def draw_border(canvas: Canvas, page: Page, travel_um: Floats) -> None:

@@ -9,15 +9,22 @@ from parser.toolpath import Toolpath
 from parser.units import mm
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
-from sim.show.draw.chart import Columns, in_cells
-from sim.show.draw.dial import NOMINAL_WIDTH, RIM, Dial, draw_ring_values, draw_rings, ring_for
+from sim.show.draw.chart import (
+    NOMINAL_WIDTH,
+    RIM,
+    Columns,
+    Dial,
+    draw_ring_values,
+    draw_rings,
+    in_cells,
+    ring_for,
+)
+from sim.show.draw.flatten import CHORD_PX, simplify
 from sim.show.draw.layout import Box
 from sim.show.draw.legend import Entry, draw_at_foot, in_rows, ring, stroke, swatch
-from sim.show.draw.paints import Paint
 from sim.show.draw.sheet import AnyCanvas, Sheet
-from sim.show.draw.simplify import CHORD_PX, simplify
-from sim.show.pictures.deviation.frame import titled, um, write_caption
-from sim.show.pictures.deviation.samples import Samples
+from sim.show.draw.style import Paint
+from sim.show.pictures.deviation.frame import Samples, titled, um, write_caption
 from sim.show.texts import Words
 
 MOST: Final = 4

@@ -7,14 +7,12 @@ import numpy as np
 from parser.geometry.curves import Floats, Ints
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
-from sim.show.draw.flatten import bounds_um, cut_runs, flatten
+from sim.show.draw.flatten import CHORD_PX, bounds_um, cut_runs, flatten, simplify
 from sim.show.draw.layout import Box, Page, centred, nice_below
 from sim.show.draw.legend import Entry, draw_at_foot, draw_axes, draw_frame, in_rows, stroke
-from sim.show.draw.paints import Paint
 from sim.show.draw.sheet import AnyCanvas, Sheet
-from sim.show.draw.simplify import CHORD_PX, simplify
-from sim.show.pictures.deviation.frame import mark_place, titled, tolerance_text, um
-from sim.show.pictures.deviation.samples import Samples
+from sim.show.draw.style import Paint
+from sim.show.pictures.deviation.frame import Samples, mark_place, titled, tolerance_text, um
 from sim.show.pictures.deviation.worst import worst_of
 from sim.show.texts import Words
 

@@ -1,22 +1,141 @@
-"""Panels: what each shows of a run's history, in units for people, with its levels, and over which range."""
+"""Panels of the motion picture, in units for people, and the events on their time axis.
+
+Events on the time axis: borders of blocks with their numbers, passes, pauses, and what the drives lost.
+
+Panels: what each shows of a run's history, in units for people, with its levels, and over which range.
+"""
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Final, NamedTuple
 
 import numpy as np
 
 from parser.controller_words import Axis
+from parser.findings.findings import telling
 from parser.geometry.curves import Floats, Ints
 from parser.units import mm
 from sim.base.units import in_figures
+from sim.run.course import passes_of, stops_of
 from sim.run.dryrun import DryRun
-from sim.show.draw.chart import AxisRange, range_of
-from sim.show.draw.paints import Paint
+from sim.show.draw import style
+from sim.show.draw.canvas import Canvas
+from sim.show.draw.chart import AxisRange, Chart, range_of
+from sim.show.draw.labels import MOST_NUMBERS, number_stride
+from sim.show.draw.layout import Box
+from sim.show.draw.style import Paint, paint_of_pass
 from sim.show.texts import Words
-from sim.table.record.bins import Envelope
-from sim.table.record.history import History
-from sim.table.record.losses import Quantity
+from sim.table.findings import Lost
+from sim.table.record.history import Envelope, History
+from sim.table.record.losses import LossKind, Quantity
+
+ROW: Final = 30.0
+"""Height of a row of numbers or signs."""
+BAND: Final = 26.0
+"""Height of the tones of passes, in a row."""
+TICK: Final = 9.0
+LINE_WIDTH: Final = 1.5
+PAUSE: Final = "‖"
+"""Sign of a pause, as two bars are in the picture of the cut: one dialect writes D, others M00, M01 or M20."""
+_NAMES: Final[Mapping[LossKind, str]] = {"lost-steps": "motion.lost", "trip": "motion.trip"}
+
+
+class TimeMark(NamedTuple):
+    """What happened at a time: the key of its name, its sign, and what it is drawn in."""
+
+    t_s: float
+    name: str
+    sign: str
+    paint: Paint
+
+
+class _Label(NamedTuple):
+    """A text that is centred on a place of the time axis, px."""
+
+    x: float
+    text: str
+    paint: Paint
+
+
+def marks_of(run: DryRun) -> list[TimeMark]:
+    """Losses of a run, with the codes of their findings and the axes, and pauses."""
+    pauses = [
+        TimeMark(stop.t_s, "motion.pause", PAUSE, Paint.PAUSE) for stop in stops_of(run) if stop.what.kind == "pause"
+    ]
+    codes = {fact.kind: finding.code for finding, fact in telling(run.findings, Lost)}
+    losses = [
+        TimeMark(loss.t_s, _NAMES[loss.kind], f"{codes[loss.kind]} {loss.axis.name}", Paint.ERROR)
+        for loss in run.losses
+    ]
+    until_s = run.history.t_s[-1]
+    return [mark for mark in (*losses, *pauses) if mark.t_s <= until_s]
+
+
+def draw_blocks(canvas: Canvas, chart: Chart, run: DryRun, unit_s: float) -> None:
+    """Draw ticks at borders of blocks and numbers between, above a chart whose X axis counts `unit_s`.
+
+    Of many blocks only every 2nd, 5th, 10th … has them. Of numbers that would overlap, the roundest is written, and
+    of those that are as round the one of the longest block.
+    """
+    stride, top, unit = number_stride(len(run.toolpath)), chart.frame.top, chart.unit
+    borders = chart.x_px(run.border_s / unit_s)
+    for x in borders[::stride].tolist():
+        canvas.polyline(np.array([[x, top - TICK * unit], [x, top]]), Paint.GREY, LINE_WIDTH * unit)
+    rows = np.arange(stride - 1, len(run.toolpath), stride)
+    round_by = sum((rows + 1) % (times * stride) == 0 for times in (2, 5, 10)) if stride > 1 else np.zeros(len(rows))
+    best = rows[np.lexsort((-run.block_time_s[rows], -round_by))]
+    middle = (borders[best] + borders[best + 1]) / 2.0
+    name = run.block_names.of_row
+    labels = [_Label(x, name(row), Paint.GREY) for x, row in zip(middle.tolist(), best.tolist(), strict=True)]
+    _draw_labels(canvas, chart, labels, top - (TICK + 0.5 * ROW) * unit)
+
+
+def draw_passes(canvas: Canvas, chart: Chart, run: DryRun, unit_s: float) -> None:
+    """Draw the passes in their tones above the numbers of blocks, each with its own number where that has room."""
+    foot, size = chart.frame.top - (TICK + ROW) * chart.unit, style.NUMBER * chart.unit
+    borders = chart.x_px(run.border_s / unit_s)
+    for each, _ in passes_of(run):
+        left, right = borders[[each.first, each.last + 1]].tolist()
+        draw_pass(canvas, Box(left, foot - BAND * chart.unit, right, foot), each.number, size)
+
+
+def draw_pass(canvas: Canvas, box: Box, number: int, size: float) -> None:
+    """Draw a pass as a box in its tone, with its number where that has room."""
+    paint, text = paint_of_pass(number), str(number)
+    canvas.box(box, paint, paint, 0.0)
+    if canvas.text_width(text, size) < box.right - box.left:
+        middle = ((box.left + box.right) / 2.0, (box.top + box.bottom) / 2.0)
+        canvas.text(middle, text, size, Paint.INK, align=0.5)
+
+
+def draw_marks(canvas: Canvas, charts: list[Chart], marks: list[TimeMark], unit_s: float, y: float) -> None:
+    """Draw a line through all charts at each mark, and its sign at the height `y` as far as there is room.
+
+    Of two in one place the first one shows.
+    """
+    unit = charts[0].unit
+    x = charts[0].x_px(np.array([mark.t_s for mark in marks]) / unit_s).tolist()
+    lines = {round(at): mark.paint for at, mark in reversed(list(zip(x, marks, strict=True)))}
+    for at, paint in lines.items():
+        for frame in (chart.frame for chart in charts):
+            line = np.array([[at, frame.top], [at, frame.bottom]], dtype=np.float64)
+            canvas.dashed(line, paint, LINE_WIDTH * unit, 0.5 * style.DASH * unit, 0.5 * style.DASH_GAP * unit)
+    labels = [_Label(at, mark.sign, mark.paint) for at, mark in zip(x, marks, strict=True)]
+    _draw_labels(canvas, charts[0], labels, y)
+
+
+def _draw_labels(canvas: Canvas, chart: Chart, labels: list[_Label], y: float) -> None:
+    """Write those labels that find room beside one another within the width of a chart; earlier ones choose first."""
+    size = style.NUMBER * chart.unit
+    taken: list[tuple[float, float]] = []
+    for label in labels[:MOST_NUMBERS]:
+        half = canvas.text_width(label.text, size) / 2.0
+        x = min(max(label.x, chart.frame.left + half), chart.frame.right - half)
+        begin, end = x - half - 0.4 * size, x + half + 0.4 * size
+        if all(end <= left or right <= begin for left, right in taken):
+            taken.append((begin, end))
+            canvas.text((x, y), label.text, size, label.paint, align=0.5)
+
 
 ROOM: Final = 0.08
 """Share of its range that a panel leaves free at either side."""

@@ -7,8 +7,13 @@ import pytest
 from places import ROOT
 
 from parser.findings.errors import ClusterError
-from sim.base.workers import makers
-from sim.base.workers.makers import digest_of, made_by, refuse_other_makers, sources
+from sim.base.workers import rounds
+from sim.base.workers.rounds import (
+    digest_of,
+    made_by,
+    refuse_other_makers,
+    sources,
+)
 
 
 @pytest.fixture
@@ -52,6 +57,6 @@ def test_all_packages_of_drycut_count(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_a_worker_with_other_sources_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     here = made_by()
     refuse_other_makers(here)
-    monkeypatch.setattr(makers, "sources", lambda: "0123456789abcdef")
+    monkeypatch.setattr(rounds, "sources", lambda: "0123456789abcdef")
     with pytest.raises(ClusterError, match="sources"):
         refuse_other_makers(here)

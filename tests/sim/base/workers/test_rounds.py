@@ -11,8 +11,7 @@ from pathlib import Path
 import pytest
 from places import ROOT
 
-from sim.base.workers.processes import Processes
-from sim.base.workers.rounds import Lost, in_order, results
+from sim.base.workers.rounds import Lost, Processes, in_order, results
 
 needs_kill = pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="has no such signal")
 
@@ -82,7 +81,7 @@ def test_an_error_ends_all_and_no_process_stays() -> None:
 
 SLEEPERS = """
 import os, sys, time
-from sim.base.workers.processes import Processes
+from sim.base.workers.rounds import Processes
 
 if __name__ == "__main__":
     with Processes(1).open() as pool:

@@ -10,8 +10,7 @@ from made_programs import plate_file
 from runs import plain_scenario
 
 from parser.write.iso import iso_choices
-from sim.check.engine import run_checks
-from sim.check.path_checks import Demands
+from sim.check.path_checks import Demands, run_checks
 from sim.make.cam.document import figure_sums
 from sim.make.cam.maker import MadeProgram, NotMade, made_program, remarked, unproved
 from sim.make.convert.wanted import Wanted

@@ -10,8 +10,7 @@ from twins import TWIN_3B, TWIN_ISO
 from parser.dialect.reader import Choices
 from parser.program import Program, load_program, parse_program
 from parser.write.iso import iso_choices
-from sim.check.engine import run_checks
-from sim.check.path_checks import Demands
+from sim.check.path_checks import Demands, run_checks
 from sim.make.convert import convert as conversion
 from sim.make.convert.convert import Converted, Refused, converted
 from sim.make.convert.wanted import Language, Wanted

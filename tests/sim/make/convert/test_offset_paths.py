@@ -9,7 +9,7 @@ from sound_4b import outline_4b
 from parser.program import parse_program
 from sim.make.convert.convert import Converted, converted
 from sim.make.convert.wanted import Language, Wanted
-from sim.run.offsetting import as_run
+from sim.run.prepare import as_run
 from sim.setup.part import SIDES, Offset, OffsetPass
 
 H23 = """B3870B1013B3870GXL3 B978B3738B3738GYL2 B581B152B872GXNR1 B7843B4354B7843GXL3 B291B525B402GYNR2

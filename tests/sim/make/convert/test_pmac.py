@@ -15,8 +15,7 @@ from parser.findings.codes import Severity
 from parser.geometry.curves import extents
 from parser.program import Program, load_program, parse_program
 from parser.write.pmac import Card, PmacChoices, Way, blocks_of_source
-from sim.check.engine import run_checks
-from sim.check.path_checks import Demands
+from sim.check.path_checks import Demands, run_checks
 from sim.make.convert.convert import Converted, Refused, converted
 from sim.make.convert.wanted import Wanted
 from sim.show.terminal.convert import converted_lines

@@ -6,7 +6,7 @@ import pytest
 from lsprotocol.types import Position
 
 from parser.text.lines import LineIndex
-from sim.serve.editor.places import Places
+from sim.serve.editor.shown import Places
 
 UNITS = {"utf-8": ("utf-8", 1), "utf-16": ("utf-16-le", 2), "utf-32": ("utf-32-le", 4)}
 LETTERS = "B1G X电é😀\t\x0b\u2028"

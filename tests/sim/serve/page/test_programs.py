@@ -13,8 +13,7 @@ from page_types import types_of, unlike
 from parser.findings.errors import FileUnreadableError
 from sim.serve.page import programs
 from sim.serve.page.answers import file_of, read_file
-from sim.serve.page.programs import Opened, Programs
-from sim.serve.page.row import row_or_why
+from sim.serve.page.programs import Opened, Programs, row_or_why
 from sim.show import open_page
 
 SQUARE = "B3000B0B3000GXL1\nB0B2000B2000GYL2\nB3000B0B3000GXL3\nB0B2000B2000GYL4\nDD\n"
@@ -181,7 +180,7 @@ def test_a_fault_of_drycut_at_one_file_is_told_of_that_one(monkeypatch: pytest.M
     def broken(*_: object) -> None:
         raise ZeroDivisionError("planted")
 
-    monkeypatch.setattr("sim.serve.page.row.as_typed", broken)
+    monkeypatch.setattr("sim.serve.page.programs.as_typed", broken)
     row = row_or_why("a.3b", None, SQUARE.encode())
     assert (row["verdict"], row["message"]["en"]) == ("fault", "ZeroDivisionError: planted")
 

@@ -27,9 +27,8 @@ from places import ROOT
 from parser.findings.errors import SettingsError
 from sim.serve.page.child import Child, begun
 from sim.serve.page.life import AWAY_S, FIRST_S, Life
-from sim.serve.page.run_requests import zipped
 from sim.serve.page.runner import _film
-from sim.serve.page.runs import KEYS, Runs
+from sim.serve.page.runs import KEYS, Runs, zipped
 from sim.serve.page.served import MOST_BYTES
 
 WRONG = "B9900B0B39600GXNR1\nDD\n"

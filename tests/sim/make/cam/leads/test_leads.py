@@ -6,8 +6,15 @@ import pytest
 from parser.geometry.along import directions, places
 from parser.geometry.curves import Curves, curves_between
 from parser.toolpath import Point
-from sim.make.cam.leads.leads import lead_in, lead_of, lead_out
-from sim.make.cam.leads.room import are_free, balls_um, nearest, room_of
+from sim.make.cam.leads import (
+    are_free,
+    balls_um,
+    lead_in,
+    lead_of,
+    lead_out,
+    nearest,
+    room_of,
+)
 from sim.make.cam.model import Entry, Figure, Thread
 from sim.setup.making import LeadIn
 

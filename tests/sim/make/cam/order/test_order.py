@@ -7,9 +7,8 @@ import pytest
 
 from parser.geometry.curves import curves_between
 from parser.toolpath import Point
-from sim.make.cam.model import CannotCutError, Entry, Figure, Thread
-from sim.make.cam.order.order import around, in_order
-from sim.make.cam.order.sides import way_of, with_sides
+from sim.make.cam.model import CannotCutError, Entry, Figure, Thread, way_of, with_sides
+from sim.make.cam.order import around, in_order
 from sim.setup.making import LayerWish, Making
 
 MM = 1000.0

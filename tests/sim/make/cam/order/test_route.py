@@ -7,7 +7,13 @@ import numpy as np
 import pytest
 
 from parser.geometry.curves import Floats, Ints
-from sim.make.cam.order.order import from_nearest_to_nearest, neighbours, route, shortened, travel_um
+from sim.make.cam.order import (
+    from_nearest_to_nearest,
+    neighbours,
+    route,
+    shortened,
+    travel_um,
+)
 
 SEEDS = range(40)
 

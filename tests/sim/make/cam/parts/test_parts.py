@@ -13,7 +13,7 @@ from drawn_loops import Piece, arc, as_drawn, circle, drawing_of, nested, polygo
 from parser.drawing.model import FitFigures
 from parser.geometry.curves import curves_between
 from sim.make.cam.model import CannotCutError, Figure, Parts, Refusal
-from sim.make.cam.parts.parts import parts_of
+from sim.make.cam.parts import parts_of
 from sim.setup.making import Making
 
 

@@ -6,9 +6,9 @@ import pytest
 from drawn_loops import Piece, circle, drawing_of, polygon, square
 
 from parser.findings.catalogue import remark_text
+from sim.make.cam.contacts import walls
 from sim.make.cam.model import CannotCutError
-from sim.make.cam.parts.contacts import walls
-from sim.make.cam.parts.parts import parts_of
+from sim.make.cam.parts import parts_of
 from sim.setup.making import Making
 
 REACH_UM = 100.0

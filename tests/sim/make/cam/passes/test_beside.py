@@ -10,9 +10,9 @@ from cam_contours import circle, contour, figure, fitted_ellipse, flat, grown, r
 from controller.offset.reach import reach
 from controller.offset.shifted import Side
 from parser.geometry.curves import Curves
+from sim.make.cam.convex import beside_convex
 from sim.make.cam.model import CannotCutError
-from sim.make.cam.passes.offset_path.convex import beside_convex
-from sim.make.cam.passes.offset_path.offset_path import SHORT_UM, offset_path
+from sim.make.cam.offset_path import SHORT_UM, offset_path
 from sim.setup.making import Corners
 
 WITHIN_UM = 0.3

@@ -6,7 +6,7 @@ from cam_contours import circle, contour
 
 from parser.geometry.curves import Curves, Floats
 from parser.geometry.distance import distance_to_curves
-from sim.make.cam.passes.offset_path.corners import clearance_um
+from sim.make.cam.convex import clearance_um
 
 SHAPES = {
     "lines": contour([(0.0, 0.0), (3000.0, -700.0), (4000.0, 2500.0), (-500.0, 2000.0)]),

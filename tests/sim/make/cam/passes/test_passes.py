@@ -13,7 +13,7 @@ from parser.geometry.along import headings_along, places_at
 from parser.geometry.curves import Curves, joined
 from parser.toolpath import Point
 from sim.make.cam.model import CannotCutError, Entry, Figure, FigureCut, PassCut, Thread
-from sim.make.cam.passes.passes import figure_cut
+from sim.make.cam.passes import figure_cut
 from sim.setup.making import LayerWish, Making
 
 PASSES = (180.0, 120.0, 100.0)

@@ -10,8 +10,8 @@ from made_programs import plan_of, plate_file
 
 from parser.geometry.curves import CurveKind, Curves, Floats
 from parser.program import load_program, parse_program
-from sim.make.cam.path.compensated_draft import draft_of_plan
-from sim.make.convert.proof import proof
+from sim.make.cam.compensated_draft import draft_of_plan
+from sim.make.convert.convert import proof
 from sim.make.convert.wanted import Wanted, encoded, written
 from sim.setup.making import Making
 

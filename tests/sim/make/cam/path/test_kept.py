@@ -11,11 +11,10 @@ from runs import plain_scenario
 
 from parser.geometry.curves import CurveKind
 from parser.write.iso import iso_choices
-from sim.check.engine import run_checks
-from sim.check.path_checks import Demands
+from sim.check.path_checks import Demands, run_checks
+from sim.make.cam.compensated_draft import draft_of_plan
 from sim.make.cam.maker import MadeProgram, NotMade, unproved
-from sim.make.cam.path.compensated_draft import draft_of_plan
-from sim.make.cam.proof.proof import ToProve, proved
+from sim.make.cam.proof import ToProve, proved
 from sim.make.convert.wanted import Wanted
 from sim.setup.making import Making
 

@@ -12,9 +12,8 @@ from parser.program import parse_program
 from parser.toolpath import Point
 from parser.write.draft import Draft
 from parser.write.iso import iso_choices
-from sim.check.engine import run_checks
-from sim.check.path_checks import Demands
-from sim.make.cam.path.compensated_draft import draft_of_plan
+from sim.check.path_checks import Demands, run_checks
+from sim.make.cam.compensated_draft import draft_of_plan
 from sim.make.convert.wanted import Wanted, begun, draft_for, read_with, written
 from sim.setup.making import Making
 

@@ -13,8 +13,8 @@ from parser.geometry.curves import curves_between
 from parser.toolpath import Point
 from parser.write.iso import iso_choices
 from sim.make.cam.model import CutPlan, FigureCut
-from sim.make.cam.passes.passes import figure_cut
-from sim.make.cam.proof.target import Proof
+from sim.make.cam.passes import figure_cut
+from sim.make.cam.target import Proof
 from sim.make.convert.wanted import Wanted
 from sim.setup.making import Making
 

@@ -13,9 +13,9 @@ from parser.drawing.model import Drawing, Entity, Mark
 from parser.geometry.along import places
 from parser.geometry.curves import Curves, curves_between, joined
 from parser.toolpath import Point
-from sim.make.cam.leads.leads import lead_in
+from sim.make.cam.leads import lead_in
 from sim.make.cam.model import CannotCutError, Figure, Refusal, Thread
-from sim.make.cam.threads.threads import thread_notes, threads_of
+from sim.make.cam.threads import thread_notes, threads_of
 from sim.setup.making import Making
 
 REACH_UM = 120.0

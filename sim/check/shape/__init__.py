@@ -1,1 +1,0 @@
-"""What is wrong with the shape of contours: corners, crossings, reversed arcs; the border type is `Finding`."""

@@ -1,1 +1,0 @@
-"""The sizes of what is kept, beside their nominal ones; the border type is `Sizes`."""

@@ -1,0 +1,404 @@
+"""Places where the wire may come to a contour, and thread points chosen among them in the waste.
+
+Places where the wire may come to a contour: middles of its curves, places across from a point, its corners.
+
+Thread points chosen in the waste.
+
+Thread points that lie apart: where one start hole is, there is no room for another one.
+"""
+
+import math
+from collections.abc import Mapping
+from typing import Final, NamedTuple
+
+import numpy as np
+import shapely
+
+from controller.offset.chain import lines_between
+from parser.geometry.along import along_um, directions, headings_along, places_at, to_left
+from parser.geometry.curves import Bools, Curves, Floats, Ints
+from parser.geometry.distance import feet
+from parser.toolpath import Point
+from parser.units import mm
+from sim.make.cam.leads import Room, are_free, balls_um, nearest
+from sim.make.cam.model import CannotCutError, Entry, Refusal, Thread
+
+MOST: Final = 12
+"""Entries of a figure that are looked at."""
+_LONG_UM: Final = 1000.0  # a line as long as this takes an entry before any arc
+_ACROSS: Final = 1e-6
+_SMOOTH: Final = math.cos(math.radians(2.5))  # fitted arcs meet at up to 2.4° (docs/program.md)
+
+
+class Entries(NamedTuple):
+    """Entries (m,), the best of each figure first.
+
+    Attributes
+    ----------
+    row, along_um
+        (m,) row of the room, and how far along it.
+    place_um, out
+        (m, 2) on the contour, and unit vectors into the waste.
+    aside_um
+        (m,) how far out from the place a pass at the offset begins: the offset, more in a corner.
+    """
+
+    row: Ints
+    along_um: Floats
+    place_um: Floats
+    out: Floats
+    aside_um: Floats
+
+    def take(self, at: Ints) -> "Entries":
+        """Those at the indices `at`."""
+        return Entries(self.row[at], self.along_um[at], self.place_um[at], self.out[at], self.aside_um[at])
+
+    @property
+    def begin_um(self) -> Floats:
+        """(m, 2) where the pass at the offset begins."""
+        return self.place_um + self.aside_um[:, None] * self.out
+
+    def entry(self, room: Room, at: int) -> Entry:
+        """One of them, with the row of its own contour."""
+        row = int(self.row[at])
+        first = int(np.searchsorted(room.figure, room.figure[row]))
+        (x, y), (out_x, out_y) = self.place_um[at].tolist(), self.out[at].tolist()
+        return Entry(row - first, float(self.along_um[at]), Point(x, y), Point(out_x, out_y))
+
+
+class _Looked(NamedTuple):
+    """Where entries are looked for: at a share (rows,) of the length of each curve, on so many of a figure at most.
+
+    On a circle they are looked for where it crosses the axes, at one of these places or at all `around` of them.
+    """
+
+    share: Floats
+    most: int
+    around: int = 1
+
+
+def starts(room: Room, side: Floats, wanted: Ints, reach_um: float) -> Entries:
+    """As `middles`, the few best, but of an arc that goes on smoothly from another one its start.
+
+    An entry there costs no block.
+    """
+    return _entries(room, side, wanted, reach_um, _Looked(np.where(_is_joint(room), 0.0, 0.5), MOST))
+
+
+def middles(room: Room, side: Floats, wanted: Ints, reach_um: float) -> Entries:
+    """Middles of curves of each of the figures `wanted`, of circles all quarters, where a mark hurts least first.
+
+    Lines of 1 mm and more come first, the longest before the others, then what else there is, by length; arcs of a
+    radius no larger than the reach of the wire only where there is nothing else. `side` (figures,) is 1 where the waste
+    lies within.
+    """
+    return _entries(room, side, wanted, reach_um, _Looked(np.full(len(room.figure), 0.5), 4 * len(room.figure), 4))
+
+
+def _entries(room: Room, side: Floats, wanted: Ints, reach_um: float, looked: _Looked) -> Entries:
+    """Entries of each of the figures, the best first."""
+    row = np.flatnonzero(np.isin(room.figure, wanted))
+    row = np.repeat(row, np.where(_is_circle(room.curves.picked(row)), looked.around, 1))
+    curves = room.curves.picked(row)
+    quarter = np.arange(len(row)) - np.searchsorted(row, row)
+    is_small = curves.is_arc & (curves.radius_um <= reach_um)
+    grade = np.where(is_small, 2, np.where(~curves.is_arc & (curves.length_um >= _LONG_UM), 0, 1))
+    on_axis = np.mod(_to_axis(curves) + 0.25 * quarter * curves.length_um, curves.length_um)
+    along = np.where(_is_circle(curves), on_axis, looked.share[row] * curves.length_um)
+    along = _to_whole(room, row, along)
+    place = places_at(room.curves, row, along)
+    keys = (*np.round(place.T[::-1]), -np.round(curves.length_um), grade, room.figure[row])
+    order = np.lexsort(keys)
+    figure, grade = room.figure[row[order]], grade[order]
+    start = np.flatnonzero(np.diff(figure, prepend=-1))
+    of = np.cumsum(np.diff(figure, prepend=-1) > 0) - 1
+    is_best = (np.arange(len(order)) - start[of] < looked.most) & ((grade < 2) | (grade[start[of]] == 2))
+    order = order[is_best]
+    out = _out(room, side, row[order], headings_along(room.curves, row[order], along[order]))
+    return Entries(row[order], along[order], place[order], out, np.full(len(order), reach_um))
+
+
+class EntryRequest(NamedTuple):
+    """Thread points (k, 2) of figures (k,) that ask for entries, and how far leads keep off contours."""
+
+    figure: Ints
+    place_um: Floats
+    reach_um: float
+
+
+def across_from(room: Room, side: Floats, request: EntryRequest) -> tuple[Entries, Ints]:
+    """Entries straight across from thread points, the nearest of each first, arcs no larger than the reach last.
+
+    With them, which thread point (m,) each is for.
+    """
+    row, whose = room.rows(request.figure)
+    place = request.place_um[whose]
+    foot = feet(room.curves, row, place).place_um
+    along = along_um(room.curves, row, foot)
+    by = place - foot
+    length = np.hypot(*by.T)
+    heading = headings_along(room.curves, row, along)
+    is_across = (np.abs((by * heading).sum(axis=1)) < _ACROSS * length) & (length > 0.0)
+    is_small = room.curves.is_arc[row] & (room.curves.radius_um[row] <= request.reach_um)
+    found = np.flatnonzero(is_across)
+    found = found[np.lexsort([length[found], is_small[found], whose[found]])]
+    out, aside = _out(room, side, row[found], heading[found]), np.full(len(found), request.reach_um)
+    return Entries(row[found], along[found], foot[found], out, aside), whose[found]
+
+
+def corners(room: Room, side: Floats, request: EntryRequest) -> tuple[Entries, Ints]:
+    """Entries where curves meet, from midway between both, those nearest to each of the thread points first.
+
+    With them, which thread point (m,) each is for. Where the waste lies in a corner, the wire reaches no nearer to it
+    than where it touches both sides.
+    """
+    row, whose = room.rows(request.figure)
+    leaving, arriving = (way[row] for way in directions(room.curves))
+    first = np.searchsorted(whose, whose)
+    last = np.searchsorted(whose, whose, side="right") - 1
+    at = np.arange(len(row))
+    arriving = arriving[np.where(at > first, at - 1, last)]
+    sense = side[room.figure[row], None]
+    normal, middle = sense * to_left(leaving), sense * (to_left(leaving) + to_left(arriving))
+    length = np.hypot(*middle.T)
+    off = np.hypot(*(room.curves.start_um[row] - request.place_um[whose]).T)
+    corner = np.flatnonzero(length > _ACROSS)
+    corner = corner[np.lexsort([off[corner], whose[corner]])]
+    out = middle[corner] / length[corner, None]
+    turn = (arriving[:, 0] * leaving[:, 1] - arriving[:, 1] * leaving[:, 0])[corner]
+    aside = request.reach_um / np.where(sense[corner, 0] * turn > 0.0, (out * normal[corner]).sum(axis=1), 1.0)
+    found = Entries(row[corner], np.zeros(len(corner)), room.curves.start_um[row[corner]], out, aside)
+    return found, whose[corner]
+
+
+def nearest_of(room: Room, side: Floats, at: int, place_um: Floats) -> Entry:
+    """The entry of one figure at its place nearest to another one (2,)."""
+    row, _ = room.rows(np.array([at]))
+    foot = feet(room.curves, row, np.broadcast_to(place_um, (len(row), 2))).place_um
+    nearest = int(np.argmin(np.hypot(*(foot - place_um).T)))
+    row, foot = row[nearest : nearest + 1], foot[nearest : nearest + 1]
+    along = along_um(room.curves, row, foot)
+    out = _out(room, side, row, headings_along(room.curves, row, along))
+    return Entries(row, along, foot, out, np.zeros(1)).entry(room, 0)
+
+
+def _is_circle(curves: Curves) -> Bools:
+    circle: Bools = curves.is_arc & (np.abs(curves.sweep_rad) >= 2.0 * np.pi - _ACROSS)
+    return circle
+
+
+def _to_axis(curves: Curves) -> Floats:
+    """Lengths (n,) µm along circles to where they cross an axis, about their middle; no numbers of lines.
+
+    There a circle begins whole µm from its centre on one axis, and closes without an error of its count.
+    """
+    turn = np.sign(curves.sweep_rad)
+    quarters = np.round((curves.start_angle_rad + np.pi * turn) / (0.5 * np.pi))
+    along: Floats = curves.radius_um * turn * (0.5 * np.pi * quarters - curves.start_angle_rad)
+    return along
+
+
+def _is_joint(room: Room) -> Bools:
+    """Of all rows: whether an arc goes on smoothly from another one, as fitted ones do."""
+    rows = np.arange(len(room.figure))
+    first = np.searchsorted(room.figure, room.figure)
+    before = np.where(rows > first, rows - 1, np.searchsorted(room.figure, room.figure, side="right") - 1)
+    leaving, arriving = directions(room.curves)
+    runs_on = (leaving * arriving[before]).sum(axis=1) > _SMOOTH
+    smooth: Bools = runs_on & room.curves.is_arc & room.curves.is_arc[before] & (before != rows)
+    return smooth
+
+
+def _out(room: Room, side: Floats, row: Ints, heading: Floats) -> Floats:
+    """Unit vectors (m, 2) into the waste; contours run counter-clockwise."""
+    out: Floats = side[room.figure[row], None] * to_left(heading)
+    return out
+
+
+def _to_whole(room: Room, row: Ints, along: Floats) -> Floats:
+    """Lengths along lines moved by less than 1 µm, so that their places are whole µm along the axis nearest to them."""
+    place, heading = places_at(room.curves, row, along), headings_along(room.curves, row, along)
+    axis = np.argmax(np.abs(heading), axis=1)
+    at = np.arange(len(row))
+    by = (np.round(place[at, axis]) - place[at, axis]) / heading[at, axis]
+    is_line = ~room.curves.is_arc[row] & (room.curves.length_um[row] > 2.0)
+    return np.where(is_line, along + by, along)
+
+
+HOLE_UM: Final = 1000.0
+"""Thread points lie apart by a start hole of 1 mm (assumed).
+
+A reader of 3B takes what ends within a kerf of a figure's corner for another pass over it
+(`parser.shape.parallel_runs`): so near to one thread point no jump leads to another one.
+"""
+
+
+def are_apart(place_um: Floats, kept_um: Floats) -> Bools:
+    """(m,) which of places (m, 2) lie apart from all that are kept (k, 2)."""
+    apart = np.ones(len(place_um), dtype=np.bool_)
+    apart[_near(place_um, kept_um)[0]] = False
+    return apart
+
+
+def crowded(threads: Mapping[int, Thread], kept_um: Floats) -> list[int]:
+    """Figures whose thread points lie near those that are kept (k, 2), or near that of another figure that stays."""
+    figures = sorted(threads)
+    place_um = np.array([threads[at].place_um for at in figures]).reshape(-1, 2)
+    moving = ~are_apart(place_um, kept_um)
+    this, other = _near(place_um, place_um)
+    for first, second in sorted(zip(other.tolist(), this.tolist(), strict=True)):
+        if first < second and not moving[first]:
+            moving[second] = True
+    return [figures[at] for at in np.flatnonzero(moving).tolist()]
+
+
+def _near(place_um: Floats, kept_um: Floats) -> tuple[Ints, Ints]:
+    """Pairs of places (m, 2) and of those that are kept (k, 2) that lie nearer than a start hole, by their rows."""
+    tree = shapely.STRtree(np.asarray(shapely.points(kept_um), dtype=np.object_))
+    place, hole = tree.query(shapely.points(place_um), predicate="dwithin", distance=HOLE_UM)
+    return place, hole
+
+
+USUAL_LEAD_UM: Final = 2000.0
+"""How long leads are where nobody asks: room for a start hole of 3 mm, and little to cut (assumed)."""
+BEYOND_UM: Final = 10.0
+"""A lead is longer than the largest offset by this much."""
+_SHORTER: Final = (1.0, 0.5, 0.25)  # leads to corners, where there is less room
+_ON_UM: Final = 0.01  # a place this near to whole µm is one: files lose as much by printing decimals
+_NOWHERE: Final = np.empty((0, 2))
+
+_MOST_ROUNDS: Final = 5  # figures that were moved may lie near each other: ever fewer do
+_FOOT_UM: Final = 10.0  # more than what is straight across moves as a place becomes whole µm
+_NEARLY: Final = 0.8  # of the largest circle that any entry has beside it: so large a one is large enough
+
+
+class Wanted(NamedTuple):
+    """What is asked of leads.
+
+    Attributes
+    ----------
+    reach_um
+        How far all of them keep off contours.
+    lead_um
+        How long they are where there is room; `USUAL_LEAD_UM` where None.
+    spare_um
+        How much nearer to its entry than to anything else a thread point lies.
+    """
+
+    reach_um: float
+    lead_um: float | None
+    spare_um: float
+
+    @property
+    def least_um(self) -> float:
+        """How long leads are at least."""
+        return self.reach_um + BEYOND_UM
+
+    @property
+    def most_um(self) -> float:
+        """How long leads are where there is room."""
+        return max(USUAL_LEAD_UM, self.least_um) if self.lead_um is None else self.lead_um
+
+
+def chosen(room: Room, side: Floats, figures: Ints, wanted: Wanted, kept_um: Floats) -> dict[int, Thread]:
+    """A thread point for each of the figures that has room for it, in whole µm, across from an entry.
+
+    It lies as far from the entry as is wanted, and from all contours no less, so that the start hole has room. Where no
+    entry has so much room beside it, the thread point lies in the middle of what there is. The few longest curves of
+    each figure are looked at, and the middles of all of those that have room at none of them. CannotCutError,
+    ``short-lead``, where a lead that is asked for is shorter than the least.
+
+    Where there is room it lies a start hole away from all others, and from the thread points (k, 2) that are kept.
+    """
+    if wanted.most_um < wanted.least_um:
+        raise CannotCutError(Refusal("short-lead", (), (("least_mm", f"{mm(wanted.least_um):g}"),)))
+    found = _chosen(room, starts(room, side, figures, wanted.reach_um), wanted, _NOWHERE)
+    left = np.array([at for at in figures.tolist() if at not in found], dtype=np.int64)
+    if len(left):
+        found |= _chosen(room, middles(room, side, left, wanted.reach_um), wanted, _NOWHERE)
+    return _apart(room, side, found, wanted, kept_um)
+
+
+def _apart(room: Room, side: Floats, found: dict[int, Thread], wanted: Wanted, kept_um: Floats) -> dict[int, Thread]:
+    """With other places for figures whose thread points lie in one start hole with those of others."""
+    for _ in range(_MOST_ROUNDS):
+        moving = set(crowded(found, kept_um))
+        if not moving:
+            break
+        staying_um = np.array([each.place_um for at, each in found.items() if at not in moving]).reshape(-1, 2)
+        entries = middles(room, side, np.array(sorted(moving)), wanted.reach_um)
+        moved = _chosen(room, entries, wanted, np.concatenate([kept_um, staying_um]))
+        if not moved:
+            break
+        found = found | moved
+    return found
+
+
+def _chosen(room: Room, found: Entries, wanted: Wanted, kept_um: Floats) -> dict[int, Thread]:
+    """A thread point for each figure that has room for it across from one of the entries, apart from those kept."""
+    figure, most = room.figure[found.row], wanted.most_um
+    ball = balls_um(room, found.place_um, found.out, most + wanted.spare_um)
+    largest = np.zeros(int(room.figure[-1]) + 1)
+    np.maximum.at(largest, figure, ball)
+    order = np.lexsort([np.arange(len(ball)), ball < _NEARLY * largest[figure], ball < most, figure])
+    found, figure, length = found.take(order), figure[order], np.minimum(ball[order] - wanted.spare_um, most)
+    place, entries, far = _in_whole_um(room, found, length)
+    is_free = are_free(room, lines_between(place, entries.begin_um), wanted.reach_um)
+    fits = np.flatnonzero((far >= wanted.least_um) & is_free & are_apart(place, kept_um))
+    first = fits[np.diff(figure[fits], prepend=-1) > 0]
+    return {
+        int(figure[at]): Thread(Point(*place[at].tolist()), "chosen", entries.entry(room, at)) for at in first.tolist()
+    }
+
+
+def before_corners(
+    room: Room, side: Floats, threads: Mapping[int, Thread], wanted: Wanted, kept_um: Floats
+) -> dict[int, Thread]:
+    """Other thread points of figures that have them: midway out from their nearest corner with room before it.
+
+    A lead to a corner from anywhere else runs along a side of it: what is cut comes free before the wire is round.
+    """
+    if not threads:
+        return {}
+    places = np.array([thread.place_um for thread in threads.values()])
+    found, whose = corners(room, side, EntryRequest(np.array(list(threads)), places, wanted.reach_um))
+    best = np.flatnonzero(np.arange(len(whose)) - np.searchsorted(whose, whose) < MOST)
+    found, moved = found.take(best), dict[int, Thread]()
+    for share in _SHORTER:
+        place = np.round(found.begin_um + share * wanted.most_um * found.out) + 0.0
+        is_free = are_free(room, lines_between(place, found.begin_um), wanted.reach_um)
+        is_clear = nearest(room, place, wanted.least_um).distance_um >= wanted.least_um
+        for at in np.flatnonzero(is_free & is_clear & are_apart(place, kept_um)).tolist():
+            x, y = place[at].tolist()
+            moved.setdefault(int(room.figure[found.row[at]]), Thread(Point(x, y), "chosen", found.entry(room, at)))
+    staying_um = np.array([thread.place_um for at, thread in threads.items() if at not in moved]).reshape(-1, 2)
+    near = set(crowded(moved, np.concatenate([kept_um, staying_um])))
+    return {at: each for at, each in moved.items() if at not in near}
+
+
+def begun_on(room: Room, side: Floats, wanted: Ints) -> dict[int, Thread]:
+    """Threads of the figures `wanted` on their contours, in whole µm, at entries that are so if there are any."""
+    found = starts(room, side, wanted, 0.0)
+    figure, place = room.figure[found.row], np.round(found.place_um) + 0.0
+    off = np.abs(found.place_um - place).max(axis=1)
+    order = np.lexsort([np.arange(len(off)), off > _ON_UM, figure])
+    first = order[np.diff(figure[order], prepend=-1) > 0]
+    return {
+        int(figure[at]): Thread(Point(*place[at].tolist()), "contour", found.entry(room, at)) for at in first.tolist()
+    }
+
+
+def _in_whole_um(room: Room, found: Entries, length_um: Floats) -> tuple[Floats, Entries, Floats]:
+    """Places (m, 2) out from entries, in whole µm; the entries straight across from those, and how far off (m,).
+
+    From near the centre of an arc all of it is straight across: there the entry stays, on the axis of a circle.
+    """
+    place = np.round(found.place_um + np.maximum(length_um, 0.0)[:, None] * found.out) + 0.0
+    foot = feet(room.curves, found.row, place).place_um
+    stays = np.hypot(*(foot - found.place_um).T) > _FOOT_UM
+    foot = np.where(stays[:, None], found.place_um, foot)
+    along = np.where(stays, found.along_um, along_um(room.curves, found.row, foot))
+    by = place - foot
+    far = np.hypot(*by.T)
+    out = np.where((far > 0.0)[:, None], by / np.where(far > 0.0, far, 1.0)[:, None], found.out)
+    return place, Entries(found.row, along, foot, out, np.minimum(found.aside_um, far)), far

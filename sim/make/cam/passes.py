@@ -1,0 +1,253 @@
+"""The passes over a figure: back and forth or one way, all round it or up to a tab.
+
+Passes up to a tab that holds the part, and the cut-off behind a stop.
+
+All passes run back and forth over the open stretch, since the wire comes from its end to its start by no other way.
+From one to the next it steps aside, in its own kerf. Behind the stop it runs on over the tab as it came: from the end
+of the open stretch to its start, or back from its start to its end. It does so once, at the offset of the last pass:
+a part that has been cut off is loose, and what a second pass would leave of it is left to chance. So the tab, too, is
+as large as the drawing has it, and what the rough cut leaves rough there is what is left to be ground.
+
+Ways all round a contour at the offset of each pass, begun where the wire comes to it.
+
+Closed ways begun elsewhere, ways parted, and ways run back.
+"""
+
+import math
+from dataclasses import replace
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+
+from parser.drawing.model import running
+from parser.geometry.along import along_um, places_at
+from parser.geometry.curves import Curves, curves_between, joined, total_before
+from parser.geometry.distance import distance_to_curves
+from parser.toolpath import Point
+from sim.make.cam.leads import lead_in, lead_out
+from sim.make.cam.model import CannotCutError, Figure, FigureCut, PassCut, Refusal, Thread, way_of
+from sim.make.cam.offset_path import SHORT_UM, offset_path
+from sim.setup.making import Making
+
+
+def length_to(way: Curves, place_um: Point) -> float:
+    """How far µm along a way its place nearest to another lies."""
+    rows = np.arange(len(way))
+    off = distance_to_curves(way, rows, np.full(len(way), place_um.x), np.full(len(way), place_um.y))[0]
+    row = int(np.argmin(off))
+    on = along_um(way, rows[row : row + 1], np.array([place_um]))
+    return float(way.length_um[:row].sum() + on[0])
+
+
+def begun_at(way: Curves, place_um: Point) -> Curves:
+    """A closed way that begins and ends at its place nearest to another; at an end of a curve within 3 µm of that.
+
+    A circle stays one curve.
+    """
+    if len(way) == 1:
+        return _circle_at(way, place_um)
+    first, last = parted(way, length_to(way, place_um))
+    return joined([last, first])
+
+
+def parted(way: Curves, length_um: float) -> tuple[Curves, Curves]:
+    """A way in two, parted at a length along it; at an end of a curve within 3 µm of that, so that no sliver is left.
+
+    Either may be empty.
+    """
+    before = total_before(way.length_um)
+    nearest = int(np.argmin(np.abs(before - length_um)))
+    if abs(float(before[nearest]) - length_um) < SHORT_UM:
+        return way.picked(slice(nearest)), way.picked(slice(nearest, None))
+    row = int(np.searchsorted(before, length_um)) - 1
+    early, late = _halves(way.picked(slice(row, row + 1)), length_um - float(before[row]))
+    return joined([way.picked(slice(row)), early]), joined([late, way.picked(slice(row + 1, None))])
+
+
+def run_back(way: Curves) -> Curves:
+    """A way run from its end to its start."""
+    rows = np.arange(len(way))[::-1]
+    return running(way, rows, np.ones(len(way), dtype=np.bool_))
+
+
+def _circle_at(circle: Curves, place_um: Point) -> Curves:
+    (x, y), radius = circle.center_um[0].tolist(), float(circle.radius_um[0])
+    angle = math.atan2(place_um.y - y, place_um.x - x)
+    start = np.array([[x + radius * math.cos(angle), y + radius * math.sin(angle)]])
+    return replace(circle, start_um=start, end_um=start, start_angle_rad=np.array([angle]))
+
+
+def _halves(curves: Curves, on_um: float) -> tuple[Curves, Curves]:
+    """One curve in two."""
+    place = places_at(curves, np.array([0]), np.array([on_um]))
+    share = on_um / float(curves.length_um[0])
+    turned = share * curves.sweep_rad
+    early = replace(curves, end_um=place, sweep_rad=turned, length_um=share * curves.length_um)
+    late = replace(
+        curves,
+        start_um=place,
+        start_angle_rad=curves.start_angle_rad + turned,
+        sweep_rad=curves.sweep_rad - turned,
+        length_um=(1.0 - share) * curves.length_um,
+    )
+    return early, late
+
+
+_FARTHEST = 1.5  # times the offset: how far from a corner of the contour the way turns round it; √2 at 90°
+
+
+def offsets_of(figure: Figure, passes_um: tuple[float, ...], making: Making) -> tuple[float, ...]:
+    """Offset of each pass over a figure: as its layer asks for, else as for all. CannotCutError where one rises."""
+    layer = figure.layer.lower()
+    chosen = next(
+        (wish.passes_um for wish in making.layers if wish.layer.lower() == layer and wish.passes_um), passes_um
+    )
+    for number, (by_um, next_um) in enumerate(pairwise(chosen), start=2):
+        if next_um > by_um:
+            values = (("number", str(number)), ("offset_mm", f"{next_um / 1000:g}"), ("before_mm", f"{by_um / 1000:g}"))
+            raise CannotCutError(Refusal("offset-rises", (), values))
+    return chosen
+
+
+def around(figure: Figure, thread: Thread, by_um: float, making: Making) -> Curves:
+    """The closed way counter-clockwise at an offset, begun across from the entry; CannotCutError where it has none."""
+    way = offset_path(figure, by_um, making.corners)
+    return begun_at(way, _begin(figure, thread, by_um, way))
+
+
+def _begin(figure: Figure, thread: Thread, by_um: float, way: Curves) -> Point:
+    """Where a way begins: across from the entry, or where the way turns round the corner that the entry lies at.
+
+    From there on the wire does not touch the part: a mark of it stays off the corner.
+    """
+    entry = thread.entry
+    across = Point(entry.place_um.x + by_um * entry.out.x, entry.place_um.y + by_um * entry.out.y)
+    length = float(figure.contour.length_um[entry.row])
+    if SHORT_UM < entry.along_um < length - SHORT_UM:
+        return across
+    off = np.hypot(*(way.start_um - np.array(entry.place_um)).T)
+    beside_um = np.hypot(*(way.start_um - np.array(across)).T)
+    near = (off >= by_um - SHORT_UM) & (off <= _FARTHEST * by_um)
+    if not near.any():
+        return across
+    return Point(*way.start_um[int(np.argmin(np.where(near, beside_um, np.inf)))].tolist())
+
+
+_MOST_SHARE = 0.5  # of the contour
+_STEP_UM = 1e-6
+
+
+class Rounds(NamedTuple):
+    """Closed ways round a figure, one a pass, all run as the first pass runs, from across the entry.
+
+    Attributes
+    ----------
+    figure, thread
+        The figure, and where the wire of it is threaded.
+    is_ccw
+        Whether they run counter-clockwise.
+    offsets_um
+        The offset of each.
+    ahead
+        The ways.
+    """
+
+    figure: Figure
+    thread: Thread
+    is_ccw: bool
+    offsets_um: tuple[float, ...]
+    ahead: tuple[Curves, ...]
+
+
+class _Parted(NamedTuple):
+    """A way up to the tab, and over it."""
+
+    open: Curves
+    tab: Curves
+
+
+def tab_passes(rounds: Rounds, making: Making) -> tuple[tuple[PassCut, ...], tuple[PassCut, ...]]:
+    """The passes over the open stretch, and the cut-off.
+
+    CannotCutError where the tab is no wider than the kerfs beside it, or most of the contour, or passes run one way.
+    """
+    if making.returning == "one-way" and len(rounds.ahead) > 1:
+        raise CannotCutError(Refusal("one-way-tab"))
+    place = _end_of_open(rounds, making.tab_um)
+    ways = [_Parted(*parted(ahead, length_to(ahead, place))) for ahead in rounds.ahead]
+    nothing = ways[0].open.picked(slice(0))
+    passes: list[PassCut] = []
+    for number, (by_um, way) in enumerate(zip(rounds.offsets_um, ways, strict=True)):
+        is_back = number % 2 == 1
+        along = run_back(way.open) if is_back else way.open
+        into = _step(passes[-1].along, along) if passes else lead_in(rounds.thread, along)
+        passes.append(PassCut(by_um, is_back, into, along, nothing))
+    return tuple(passes), (_cut_off(rounds, ways[-1], passes[-1], making),)
+
+
+def _cut_off(rounds: Rounds, way: _Parted, last: PassCut, making: Making) -> PassCut:
+    """On over the tab from where the last pass ended; from the entry out, with the overcut there on the way.
+
+    Where it comes out at the far end of the tab, it goes back in its own kerf.
+    """
+    nothing = way.tab.picked(slice(0))
+    over, _ = parted(way.open, making.overcut_um)
+    out = joined([run_back(over), lead_out(rounds.thread, way.tab)])
+    if last.is_back:
+        return PassCut(last.by_um, True, nothing, run_back(way.tab), joined([way.tab, over, out]))
+    return PassCut(last.by_um, False, nothing, joined([way.tab, over]), out)
+
+
+def _end_of_open(rounds: Rounds, tab_um: float) -> Point:
+    """The place on the contour where the tab begins, as far before the entry as it is wide."""
+    contour, entry = rounds.figure.contour, rounds.thread.entry
+    before = total_before(contour.length_um)
+    least, most = 2.0 * rounds.offsets_um[0], _MOST_SHARE * float(before[-1])
+    if not least < tab_um <= most:
+        why, bound = ("tab-too-short", least) if tab_um <= least else ("tab-too-long", most)
+        values = (("figure", str(rounds.figure.number)), ("tab_mm", _mm(tab_um)), ("bound_mm", _mm(bound)))
+        raise CannotCutError(Refusal(why, (entry.place_um,), values))
+    at = np.mod(before[entry.row] + entry.along_um + (-tab_um if rounds.is_ccw else tab_um), before[-1])
+    row = np.minimum(np.searchsorted(before, [at], side="right") - 1, len(contour) - 1)
+    return Point(*places_at(contour, row, at - before[row])[0].tolist())
+
+
+def _mm(length_um: float) -> str:
+    return f"{round(length_um) / 1000.0:g}"
+
+
+def _step(before: Curves, behind: Curves) -> Curves:
+    """A line from the end of one way to the start of another; none where they are one place."""
+    start, end = before.end_um[-1:], behind.start_um[:1]
+    away = np.hypot(*(end - start).T) > _STEP_UM
+    return curves_between(start[away], end[away], np.full((int(away.sum()), 2), np.nan), np.zeros(int(away.sum())))
+
+
+def figure_cut(figure: Figure, thread: Thread, passes_um: tuple[float, ...], making: Making) -> FigureCut:
+    """How a figure is cut; CannotCutError where the wire does not fit, or what is asked for does not go together.
+
+    A tab is left where the wire runs outside of the contour: what falls there is the part.
+    """
+    way = way_of(figure, making)
+    offsets = offsets_of(figure, passes_um, making)
+    closed = [around(figure, thread, by_um, making) for by_um in offsets]
+    ahead = tuple(each if way.is_ccw else run_back(each) for each in closed)
+    rounds = Rounds(figure, thread, way.is_ccw, offsets, ahead)
+    if making.tab_um and not figure.runs_inside:
+        return FigureCut(figure, thread, way.side, way.is_ccw, *tab_passes(rounds, making))
+    return FigureCut(figure, thread, way.side, way.is_ccw, _whole_passes(rounds, making))
+
+
+def _whole_passes(rounds: Rounds, making: Making) -> tuple[PassCut, ...]:
+    """Passes all round, each from the thread point and back to it."""
+    passes = []
+    for number, (by_um, ahead) in enumerate(zip(rounds.offsets_um, rounds.ahead, strict=True)):
+        is_back = making.returning == "back" and number % 2 == 1
+        along = run_back(ahead) if is_back else ahead
+        into, out = (lead(rounds.thread, along) for lead in (lead_in, lead_out))
+        if making.overcut_um and number == len(rounds.ahead) - 1:
+            over, _ = parted(along, making.overcut_um)
+            along, out = joined([along, over]), joined([run_back(over), out])
+        passes.append(PassCut(by_um, is_back, into, along, out))
+    return tuple(passes)

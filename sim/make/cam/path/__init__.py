@@ -1,1 +1,0 @@
-"""The plan of a cut as what is written: curves, jumps and stops; the border type is `Draft`."""

@@ -1,0 +1,245 @@
+"""The proof of a written program: read back, checked, run on the machine, path and edge held against the drawing.
+
+What falls, and when: of each figure its slug or its part, at the end of its own cut, and nothing besides.
+"""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+import shapely
+
+from parser.drawing.model import Drawing
+from parser.findings.catalogue import Remark
+from parser.findings.errors import ProgramError, SettingsError
+from parser.findings.findings import Finding, OfAddedOffset, WithoutOffset
+from parser.geometry.along import places
+from parser.geometry.curves import Bools, Ints
+from parser.program import Program
+from parser.shape.contours import runs
+from parser.toolpath import Point, Toolpath
+from parser.units import mm
+from sim.base.progress import Progress, silent
+from sim.cut.pieces.pieces import Piece, Pieces
+from sim.make.cam.model import CutPlan, with_sides
+from sim.make.cam.target import AsRun, Fault, Proof, Target, as_run, target_of
+from sim.make.convert.convert import Proof as Written
+from sim.measure.compare.compare import compare_program
+from sim.measure.compare.findings import by_block, by_entity, compare_cut, drawing_findings
+from sim.measure.compare.result import Comparison, FitRequest
+from sim.run.dryrun import DryRun
+from sim.run.running import dry_run
+from sim.setup.part import DrawingTarget
+from sim.setup.scenario import Scenario
+
+_CRUMB_UM2 = 2000.0
+"""Of less than 0.001 mm² nothing is told when it falls (`sim.cut.pieces`); twice that has fallen."""
+
+
+def side_faults(plan: CutPlan, target: Target, toolpath: Toolpath) -> Iterator[Fault]:
+    """Figures of which the wire runs on the other side than is asked for, by how the contours lie in each other.
+
+    More than half of the path to a figure and round it lies within the contour of the drawing, or outside of it.
+    """
+    wanted, of_run = _within(plan, target), runs(toolpath)
+    for loop, at in enumerate(target.cut.tolist()):
+        first, past = of_run[at].tolist()
+        rows = toolpath.picked(np.arange(first, past))
+        middle = shapely.points(places(rows, np.arange(len(rows)), np.full(len(rows), 0.5)))
+        inside = shapely.contains(target.shapes[loop], middle)
+        if (2.0 * float(rows.length_um[inside].sum()) > float(rows.length_um.sum())) != bool(wanted[loop]):
+            yield Fault("side", {}, Point(*rows.start_um[0].tolist()), plan.cuts[at].figure.number, first + 1)
+
+
+def _within(plan: CutPlan, target: Target) -> Bools:
+    """(k,) whether the wire is to run within each contour: by its depth, and as is asked for."""
+    figures = [
+        plan.cuts[at].figure._replace(runs_inside=bool(deep % 2), kind="hole" if deep % 2 else "outline")
+        for at, deep in zip(target.cut.tolist(), target.depth.tolist(), strict=True)
+    ]
+    return np.array([figure.runs_inside for figure in with_sides(figures, plan.making)])
+
+
+def fall_faults(plan: CutPlan, target: Target, pieces: Pieces, reach_um: float) -> Iterator[Fault]:
+    """Figures of which nothing falls, or something else than should, or by another figure's cut."""
+    fallen: dict[int, list[Piece]] = {}
+    for piece in pieces.freed:
+        if not piece.is_scrap:
+            fallen.setdefault(piece.freed.contour - 1, []).append(piece)
+    wanted = _within(plan, target)
+    for loop, at in enumerate(target.cut.tolist()):
+        cut, found = plan.cuts[at], fallen.pop(at, [])
+        kind = "slug" if wanted[loop] else "part"
+        most_um = max((pass_.by_um for pass_ in cut.passes), default=0.0) or reach_um
+        left = target.shapes[loop]
+        left = left.buffer(-most_um - reach_um) if kind == "slug" else left
+        place = Point(*cut.figure.contour.start_um[0].tolist())
+        if not found and left.area > _CRUMB_UM2:
+            yield Fault(f"no-{kind}", {}, place, cut.figure.number)
+        elif any(piece.kind != kind for piece in found):
+            yield Fault(f"not-{kind}", {}, place, cut.figure.number)
+        elif len(found) > max(int(shapely.get_num_geometries(left)), 1):
+            yield Fault("pieces", {"number": len(found)}, place, cut.figure.number)
+    for at, found in fallen.items():
+        number = plan.cuts[at].figure.number if at < len(plan.cuts) else 0
+        yield Fault("pieces", {"number": len(found)}, found[0].freed.wire_um, number)
+
+
+_MEASURED_UM = 0.05
+"""A comparison of exact paths is right to 0.01 µm, and fillets of a drawing to 0.02 µm."""
+
+
+class ToProve(NamedTuple):
+    """What is proved: a program that was read back, the plan that it was written of, and its drawing, unfitted.
+
+    `written` says how far the program's path lies off the plan's, of which whole steps explain `rounding_um`.
+    """
+
+    program: Program
+    plan: CutPlan
+    drawn: Drawing
+    written: Written
+    rounding_um: float
+
+
+def proved(given: ToProve, scenario: Scenario, progress: Progress = silent) -> Proof:
+    """Run a program on the machine of a scenario, and hold its path and what it cuts against the drawing."""
+    plan = given.plan
+    how = as_run(scenario, plan, given.program.toolpath)
+    target, missing = target_of(given.drawn, plan)
+    faults = (*_written_faults(given), *missing)
+    none = Proof(None, given.written.off_um, None, None, (), faults, how.unproved, how.notes, how.scenario.wire)
+    try:
+        run = dry_run(given.program, how.scenario, progress)
+    except ProgramError as error:
+        return none._replace(findings=(*error.others, error.finding))
+    except SettingsError as error:
+        return none._replace(unproved=(*how.unproved, Remark("run", {"why": error.message})))
+    progress("comparison", 0, 1)
+    of_run, notes = _of_run(run, how)
+    by_cut = _by_cut(given, run)
+    ran = none._replace(run=run, findings=of_run, faults=(*faults, *by_cut), notes=(*how.notes, *notes))
+    ran = ran._replace(unproved=(*how.unproved, *_unlooked(run)))
+    if target is None or by_cut:
+        return ran
+    path, of_path = _path(given, target, run, how)
+    cut, of_cut = _as_cut(given, target, run, how)
+    return ran._replace(
+        path=path,
+        comparison=cut,
+        findings=(*ran.findings, *of_cut.findings),
+        faults=(*ran.faults, *of_path.faults, *of_cut.faults),
+        unproved=(*ran.unproved, *of_path.unproved, *of_cut.unproved),
+    )
+
+
+def _of_run(run: DryRun, how: AsRun) -> tuple[tuple[Finding, ...], tuple[Remark, ...]]:
+    """The findings of a run, and what is to be known to run the program so: of 4B, that its offset is worked in."""
+    is_4b = any(isinstance(each.fact, WithoutOffset) for each in run.checked)
+    if not is_4b or how.scenario.offset is not None or not how.has_offset:
+        return run.findings, ()
+    return tuple(finding for finding in run.findings if not isinstance(finding.fact, OfAddedOffset)), (
+        Remark("worked-in"),
+    )
+
+
+class _Found(NamedTuple):
+    """What one look at a program finds."""
+
+    faults: tuple[Fault, ...] = ()
+    findings: tuple[Finding, ...] = ()
+    unproved: tuple[Remark, ...] = ()
+
+
+def _written_faults(given: ToProve) -> tuple[Fault, ...]:
+    """That reading gives something else than was planned."""
+    off_um, differs = given.written
+    if differs:
+        return (Fault("differs", {"what": differs}),)
+    return (Fault("written", {"off": off_um, "bound": given.rounding_um}),) if off_um > given.rounding_um else ()
+
+
+def _by_cut(given: ToProve, run: DryRun) -> tuple[Fault, ...]:
+    """That the program has more contours than figures are cut, or fewer."""
+    found, wanted = len(runs(run.toolpath)), len(given.plan.cuts)
+    return () if found == wanted else (Fault("contours", {"found": found, "wanted": wanted}),)
+
+
+def _unlooked(run: DryRun) -> Iterator[Remark]:
+    """Checks that did not come to their end."""
+    for check in run.coverage.checks:
+        if check.state == "incomplete":
+            yield Remark("check", {"check": check.name, "reason": check.reason})
+
+
+def _path(given: ToProve, target: Target, run: DryRun, how: AsRun) -> tuple[Comparison | None, _Found]:
+    """The path held against the offset of the drawing: as it is written where the controller adds the offset.
+
+    It may lie off by the tolerance of the fit, by what rounding to steps moves it, and by gaps of the drawing.
+    """
+    on_contour = min(how.edge_um, default=0.0) <= 0.0
+    toolpath = given.program.toolpath if on_contour else run.toolpath
+    making, written = given.plan.making, given.written
+    rounding_um = min(written.off_um, given.rounding_um)
+    bound_um = making.tolerance_um + rounding_um + target.gap_um + target.drawing.flatten_um + _MEASURED_UM
+    faults: list[Fault] = []
+    first: Comparison | None = None
+    for by_um in sorted(set(how.edge_um)):
+        try:
+            found = compare_program(toolpath, max(by_um, 0.0), target.drawing, FitRequest(bound_um, fitted=False))
+        except SettingsError as error:
+            return first, _Found(tuple(faults), (), (Remark("path", {"why": error.message}),))
+        first = first or found
+        faults += _off_faults(given, target, run, found, np.array(how.edge_um) == by_um)
+    return first, _Found(tuple(faults))
+
+
+def _off_faults(given: ToProve, target: Target, run: DryRun, found: Comparison, of_cut: Bools) -> Iterator[Fault]:
+    """The worst place of the path past its bound, both ways, and leads that cut into parts, of some of the cuts."""
+    number = _cut_of_block(run)
+    bound_um = found.request.tolerance_um
+    for name, deviations in (("path", by_block(found)), ("uncut", by_entity(found))):
+        here = [
+            deviation
+            for deviation in deviations
+            if of_cut[number[deviation.block]] and deviation.deviation_um > bound_um
+        ]
+        if not here:
+            continue
+        worst = max(here, key=lambda each: each.deviation_um)
+        at = number[worst.block]
+        values = {"off": worst.deviation_um, "bound": bound_um, **_mm(worst.where_um)}
+        yield Fault(name, values, worst.where_um, given.plan.cuts[at].figure.number, worst.block)
+    for gouge in found.gouges:
+        at = number[gouge.block]
+        if of_cut[at]:
+            values = {"depth": gouge.depth_um, **_mm(gouge.where_um)}
+            yield Fault("lead", values, gouge.where_um, given.plan.cuts[at].figure.number, gouge.block)
+
+
+def _cut_of_block(run: DryRun) -> Ints:
+    """Index of the cut that each block is of, by its number; of a jump that of the cut behind it."""
+    block = run.toolpath.source.block
+    cut = np.searchsorted(runs(run.toolpath)[:, 1], np.arange(len(run.toolpath)), side="right")
+    of_block = np.zeros(int(block.max(initial=0)) + 1, dtype=np.int64)
+    of_block[block] = np.minimum(cut, int(cut[~run.toolpath.is_jump].max(initial=0)))
+    return of_block
+
+
+def _mm(place: Point) -> dict[str, float]:
+    return {"x_mm": mm(place.x), "y_mm": mm(place.y)}
+
+
+def _as_cut(given: ToProve, target: Target, run: DryRun, how: AsRun) -> tuple[Comparison | None, _Found]:
+    """The edge as cut, after steps and table, and what falls."""
+    faults = [*side_faults(given.plan, target, run.toolpath)] if how.has_offset else []
+    if run.remains is None or run.ended is not None:  # what an early end leaves uncut is no fault of its own
+        return None, _Found(tuple(faults))
+    faults += fall_faults(given.plan, target, run.remains.pieces, how.scenario.wire.reach_um)
+    if not how.is_one_edge:
+        return None, _Found(tuple(faults))
+    tolerance_um = given.plan.making.held_to_um
+    drawing_target = DrawingTarget(Path(target.drawing.name), tolerance_um=tolerance_um, fit=False)
+    found = compare_cut(run.program, run.remains, target.drawing, drawing_target)
+    return found, _Found(tuple(faults), tuple(drawing_findings(run.program, found)))

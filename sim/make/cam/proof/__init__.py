@@ -1,1 +1,0 @@
-"""A written program held against its drawing: checked, run, compared; the border type is `Proof`."""

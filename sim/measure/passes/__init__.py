@@ -1,1 +1,0 @@
-"""What each pass over an edge comes to, and how much material it takes off; out comes `PassFigures`."""

@@ -1,1 +1,0 @@
-"""The picture of the circular test: polar plot, figures and marks of the reversals."""
