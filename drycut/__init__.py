@@ -27,9 +27,9 @@ if TYPE_CHECKING:
     from sim.make.cam.maker import MadeProgram as Made
     from sim.make.cam.maker import NotMade
     from sim.make.cam.maker import made_program as make_program
-    from sim.make.convert.convert import Converted, Refused
-    from sim.make.convert.convert import converted as convert_program
-    from sim.make.convert.wanted import Wanted
+    from sim.make.convert import Converted, Refused
+    from sim.make.convert import converted as convert_program
+    from sim.make.wanted import Wanted
     from sim.measure.compare.compare import compare_program
     from sim.measure.compare.result import Comparison
     from sim.run.dryrun import DryRun
@@ -97,7 +97,7 @@ _HOMES = {
     "CheckSettings": "sim.check.settings",
     "Choices": "parser.dialect.reader",
     "Comparison": "sim.measure.compare.result",
-    "Converted": "sim.make.convert.convert",
+    "Converted": "sim.make.convert",
     "DrawingTarget": "sim.setup.part",
     "DryRun": "sim.run.dryrun",
     "DrycutError": "parser.findings.errors",
@@ -113,16 +113,16 @@ _HOMES = {
     "OwnTexts": "sim.check.own_checks",
     "PictureFiles": "sim.show.pictures.files",
     "Program": "parser.program",
-    "Refused": "sim.make.convert.convert",
+    "Refused": "sim.make.convert",
     "Scenario": "sim.setup.scenario",
     "StoredTrace": "sim.jobs.trace_file",
-    "Wanted": "sim.make.convert.wanted",
+    "Wanted": "sim.make.wanted",
     "Wire": "sim.setup.wire",
     "__version__": "parser",
     "build_report": "sim.run.report",
     "check_program": "sim.check.file_check",
     "compare_program": "sim.measure.compare.compare",
-    "convert_program": "sim.make.convert.convert:converted",
+    "convert_program": "sim.make.convert:converted",
     "dry_run": "sim.run.running",
     "iso_choices": "parser.write.iso",
     "load_machine": "sim.setup.machine.machine",

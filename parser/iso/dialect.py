@@ -12,14 +12,20 @@ from parser.findings.codes import CODES_OF_ISO, Check
 from parser.findings.errors import ProgramError
 from parser.findings.findings import Finding, file_order
 from parser.geometry.curves import Ints
-from parser.iso.families.family import ToldProfile, in_other_distance, mode_findings, profile_told, reread
-from parser.iso.families.marks import mill_code
+from parser.iso.family import (
+    ToldProfile,
+    in_other_distance,
+    mode_findings,
+    profile_told,
+    reread,
+)
 from parser.iso.listing.lexer import read_listing
 from parser.iso.listing.listing import Listing
+from parser.iso.marks import mill_code
+from parser.iso.numbering import checked
 from parser.iso.path.motion import Moved, moved
 from parser.iso.trace import Trace
-from parser.iso.words.numbering import checked
-from parser.iso.words.word_checks import not_simulated
+from parser.iso.word_checks import not_simulated
 from parser.text.encoding import narrow, no_program
 
 # A line of words with G and a number among the first ones; B begins the numbers of 3B.

@@ -1,9 +1,14 @@
-"""The check of a file, whatever it holds.
+"""The check of a file, whatever it holds, and its text with all that is certain mended.
+
+The check of a file, whatever it holds.
 
 A text as it is typed, read and checked with the settings that count for its file; it may hold no program yet.
+
+The text of a program with all that is certain mended; nothing else in it changes.
 """
 
 import traceback
+from collections import Counter
 from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
@@ -12,19 +17,16 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 import numpy as np
 
 from parser.files import read_bytes
+from parser.findings.codes import Severity
 from parser.findings.errors import DrycutError, FileUnreadableError, ProgramError
-from parser.findings.findings import DamagedBlock, Finding, telling
+from parser.findings.findings import DamagedBlock, Edit, Finding, compatible, edited, telling
 from parser.program import Program, load_program, none_there
-from parser.text.encoding import decode_text
+from parser.text.encoding import decode_text, encode_text
 from parser.text.lines import LineIndex
 from parser.text.source import Source
+from sim.check.fixes import with_edits
 from sim.check.own_checks import with_own_checks
-from sim.check.path_checks import (
-    PARSER_CHECKS,
-    PATH_CHECKS,
-    Checked,
-    run_checks,
-)
+from sim.check.path_checks import PARSER_CHECKS, PATH_CHECKS, Checked, run_checks
 from sim.check.result import CheckResult, CheckState, Coverage, Programmed, programmed_of
 from sim.check.settings import CheckSettings
 from sim.check.settings.read import NO_SETTINGS
@@ -33,6 +35,7 @@ from sim.check.silence import chosen, sifted, without_known
 
 if TYPE_CHECKING:  # most checks know no machine
     from sim.setup.machine.machine import Machine
+
 
 PARALLEL_FROM: Final = 200
 
@@ -248,3 +251,50 @@ def settings_near(name: str, file: Path | None) -> tuple[CheckSettings, str]:
     except DrycutError as error:
         return NO_SETTINGS.settings_of(placed), error.message
     return settings, ""
+
+
+class MendedText(NamedTuple):
+    """A mended text.
+
+    Attributes
+    ----------
+    text, data
+        The text and its bytes; as they were where nothing is certain, or a mend would bring a new error.
+    edits
+        What makes the text of the program as read, none of them touching another.
+    findings, listed
+        All findings of the program as it was, with their edits, and those of them that nothing silences.
+    """
+
+    text: str
+    data: bytes
+    edits: tuple[Edit, ...]
+    findings: tuple[Finding, ...]
+    listed: tuple[Finding, ...]
+
+
+def mended_text(program: Program, settings: CheckSettings, known: frozenset[str] = frozenset()) -> MendedText:
+    """Mend what is certain, keeping encoding, line ends and all else.
+
+    What settings, remarks or the baseline, of which the fingerprints are `known`, silence is not mended.
+    """
+    checked = run_checks(program, settings.demands)
+    findings = with_edits(program, checked)
+    shown_findings = without_known(result_of(program, checked._replace(findings=findings), settings), known).findings
+    edits = compatible(edit for finding in shown_findings for edit in finding.edits)
+    text = edited(program.text, edits)
+    data = encode_text(text, program.encoding)
+    if text != program.text and _brings_errors(load_program(data, program.name, settings.choices), settings, checked):
+        text, data, edits = program.text, encode_text(program.text, program.encoding), ()
+    return MendedText(text, data, edits, findings, shown_findings)
+
+
+def _brings_errors(program: Program, settings: CheckSettings, before: Checked) -> bool:
+    """Whether a mended program has an error that was not there before."""
+    return bool(_errors(run_checks(program, settings.demands)) - _errors(before))
+
+
+def _errors(checked: Checked) -> Counter[tuple[str, int]]:
+    """Errors by code and line; mends neither add lines before others nor take any away."""
+    errors = (finding for finding in checked.findings if finding.severity is Severity.ERROR)
+    return Counter((finding.code, finding.line) for finding in errors)

@@ -34,7 +34,7 @@ from sim.check.travel import too_many_steps, travel_findings
 if TYPE_CHECKING:  # most checks know no machine, and most programs do not compensate
     from sim.check.compensation.check import OwnCompensation
     from sim.check.offset import Offsetting
-    from sim.setup.machine.table_model import TableModel
+    from sim.setup.machine.machine import TableModel
 
 
 class Demands(NamedTuple):

@@ -21,7 +21,7 @@ from parser.toolpath import Toolpath
 from parser.units import from_mm, mm
 
 if TYPE_CHECKING:
-    from sim.setup.machine.table_model import TableModel
+    from sim.setup.machine.machine import TableModel
 
 MAX_STEPS = 300_000_000
 """Steps that one run takes: 240 m of path, two months of cutting; a word damaged to nine digits asks for more."""

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from parser.program import Program
     from parser.write.iso import IsoChoices, Unit
     from parser.write.pmac import PmacChoices
-    from sim.make.convert.wanted import Language, Wanted
+    from sim.make.wanted import Language, Wanted
 
 _UNITS = click.Choice(["um", "mm", "inch"])
 
@@ -95,7 +95,7 @@ def convert(path: Path, output: Path, **options: Any) -> None:
     from parser.findings.errors import ProgramError
     from parser.program import read_program
     from sim.cli.scenario_options import describe
-    from sim.make.convert.convert import Converted, converted
+    from sim.make.convert import Converted, converted
     from sim.show.terminal.convert import converted_lines, read_as_lines, refused_lines
     from sim.show.terminal.printer import say
     from sim.show.terminal.streams import outlet
@@ -188,7 +188,7 @@ def _with_offset(program: "Program", given: Offsets, side: str | None) -> "Progr
 
 
 def _wanted(options: _ConvertOptions, language: "Language", program: "Program", given: Offsets) -> "Wanted":
-    from sim.make.convert.wanted import Wanted
+    from sim.make.wanted import Wanted
 
     keeps = options.compensation != "worked-in" and language in {"4b", "iso"}
     return Wanted(

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from parser.dialect.reader import Choices, ChosenDialect
     from parser.program import Program
-    from sim.teach.drill.drills import Drill, DrillRequest, Level
+    from sim.teach.drills import Drill, DrillRequest, Level
 
 _LEVELS: "dict[str, Level]" = {"easy": "words", "medium": "picture", "hard": "sums"}
 
@@ -49,7 +49,7 @@ def drill(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     from parser.dialect.reader import Choices
     from sim.jobs.run_into import PAGES, drill_names, drills_into
     from sim.show.terminal.printer import say
-    from sim.teach.drill.drills import DrillRequest
+    from sim.teach.drills import DrillRequest
 
     choices = Choices(dialect=dialect or "", unit=unit or "", registers=registers)
     request = DrillRequest(number, count, None if level is None else _LEVELS[level])
@@ -90,7 +90,7 @@ def _drills(program: "Program", request: "DrillRequest") -> "tuple[Drill, ...]":
     from sim.check.settings import CheckSettings
     from sim.cli.progress import StageProgress
     from sim.show.terminal.printer import say
-    from sim.teach.drill.drills import drills_of
+    from sim.teach.drills import drills_of
 
     try:
         with StageProgress("drills") as progress:

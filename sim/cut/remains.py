@@ -7,7 +7,7 @@ from parser.shape.contours import Contour
 from parser.toolpath import Toolpath
 from sim.cut.kerf.swept import Kerf, kerf_of
 from sim.cut.pieces.pieces import Material, Pieces, pieces_of
-from sim.cut.play.freedom import Play, plays_of
+from sim.cut.play import Play, plays_of
 from sim.cut.regions import cut_by_blocks
 from sim.cut.sizes import Sizes, sizes_of
 from sim.setup.scenario import Scenario

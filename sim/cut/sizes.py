@@ -16,8 +16,7 @@ import shapely
 from parser.geometry.along import to_left
 from parser.geometry.curves import Bools, Curves, Floats, Ints
 from parser.toolpath import Point, Toolpath
-from sim.cut.kerf.edges import Edges
-from sim.cut.kerf.nominal import nominal_region
+from sim.cut.kerf.edges import Edges, nominal_region
 from sim.cut.kerf.swept import Kerf
 from sim.cut.pieces.frees import parted
 from sim.cut.pieces.kept_edges import KeptEdges, KeptShape, kept_edges, kept_shapes, lie_on, runs_of

@@ -36,7 +36,7 @@ from sim.show.pictures.gallery import subject_of
 from sim.show.pictures.inline import inline_pictures
 from sim.show.replay.document import replay_page
 from sim.show.report_page.page import report_page
-from sim.teach.drill.drills import Drill
+from sim.teach.drills import Drill
 
 FILES: Final = ("report.html", "replay.html", "cut.png", "report.json")
 """What every run writes."""

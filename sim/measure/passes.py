@@ -30,7 +30,7 @@ from parser.geometry.distance import distance_to_curves, feet
 from parser.geometry.near import near_places
 from parser.shape.passes import Pass, Passes
 from parser.toolpath import Point, Toolpath
-from sim.measure.deviation.deviation import across_um
+from sim.measure.deviation import across_um
 from sim.table.trace import Trace
 
 _SPACING_UM: Final = 20.0

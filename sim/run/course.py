@@ -15,10 +15,10 @@ from parser.shape.passes import Pass
 from parser.toolpath import Stop
 from sim.check.offset import InPass
 from sim.cut.pieces.pieces import Piece, Pieces
-from sim.measure.deviation.deviation import Across, across
+from sim.measure.deviation import Across, across
 from sim.run.dryrun import DryRun
 from sim.run.recording import Recording
-from sim.table.record.losses import Loss
+from sim.table.losses import Loss
 from sim.table.trace import Trace, origin_um
 
 Event = Finding | Stop | Piece | Loss

@@ -22,15 +22,15 @@ from parser.toolpath import Toolpath
 from sim.check.offset import Offsetting
 from sim.check.result import Coverage
 from sim.cut.remains import Remains
+from sim.measure.causes import BlockSteps, Deviations
 from sim.measure.compare.result import Comparison
-from sim.measure.deviation.causes import BlockSteps, Deviations
 from sim.measure.passes import PassFigures
 from sim.run.ending import Ending
 from sim.setup.expectations import Missed
 from sim.setup.machine.machine import Machine
 from sim.setup.scenario import Scenario
-from sim.table.record.history import History
-from sim.table.record.losses import Loss, Peak
+from sim.table.history import History
+from sim.table.losses import Loss, Peak
 from sim.table.trace import Trace
 
 

@@ -13,10 +13,10 @@ from parser.toolpath import Toolpath
 from parser.units import from_mm
 from sim.check.travel import ROUNDING_UM, beyond_um
 from sim.run.prepare import Prepared
-from sim.setup.machine.table_model import TableModel
+from sim.setup.machine.machine import TableModel
 from sim.setup.scenario import Scenario
+from sim.table.losses import Loss
 from sim.table.motion import Motion, motion_of
-from sim.table.record.losses import Loss
 from sim.table.trace import origin_um
 
 Cause = Literal["trip", "travel"]

@@ -28,16 +28,16 @@ from sim.cut.pieces.pieces import piece_findings, region_finding
 from sim.cut.regions import RegionError
 from sim.cut.remains import Remains, remains_of
 from sim.cut.wire_lag import bowed
+from sim.measure.causes import Meters
 from sim.measure.compare.findings import compare_cut, drawing_findings
 from sim.measure.compare.result import Comparison
-from sim.measure.deviation.causes import Meters
 from sim.measure.passes import PassFigures, figures_of_passes, wire_taken
 from sim.run.dryrun import DryRun, PulseSink
 from sim.run.ending import Ending, motion_to_end, trip_of
 from sim.run.prepare import Prepared, prepare
 from sim.setup.part import DrawingTarget
 from sim.setup.scenario import Scenario
-from sim.table.findings import loss_findings
+from sim.table.losses import loss_findings
 from sim.table.motion import Motion, Moved, TableRun, driven
 from sim.table.trace import Trace
 

@@ -19,8 +19,7 @@ from parser.text.encoding import printable
 from parser.units import from_mm
 from sim.setup.dialect import READ_WITH, chosen_dialect
 from sim.setup.expectations import EXPECT, Expectation, expect_section, read_expectation
-from sim.setup.machine.machine import Machine, load_machine
-from sim.setup.machine.table_model import INTERPOLATOR
+from sim.setup.machine.machine import INTERPOLATOR, Machine, load_machine
 from sim.setup.making import LayerWish, ToMake
 from sim.setup.obstacles import CLAMPS, Clamp, Outline, read_clamps
 from sim.setup.part import (

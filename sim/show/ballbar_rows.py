@@ -8,7 +8,7 @@ from sim.run.ballbar.circle import Ballbar
 from sim.run.ballbar.figures import NAMES, DeviationParts, Figures, Sense
 from sim.show.texts import Words
 from sim.show.texts.phrases import machine_name
-from sim.table.record.losses import Loss
+from sim.table.losses import Loss
 
 
 class Row(NamedTuple):

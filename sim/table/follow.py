@@ -10,13 +10,25 @@ from controller.stepping.pulses import Pulses
 from parser.controller_words import Axis
 from parser.geometry.curves import Floats, Ints
 from parser.units import from_mm
-from sim.setup.machine.machine import TableEngine
-from sim.setup.machine.table_model import TableModel
-from sim.table.physics.drive import Bodies, drives_of
-from sim.table.record.history import History, history_of
-from sim.table.record.losses import Loss, Peak, Slip, SlipTally, in_order, peaks_of, trip_loss
-from sim.table.solve.axis import followed
-from sim.table.solve.run import AxisRun, Engine, InBodies, axis_of
+from sim.setup.machine.machine import TableEngine, TableModel
+from sim.table.axis import followed
+from sim.table.drive import Bodies, drives_of
+from sim.table.history import History, history_of
+from sim.table.losses import (
+    Loss,
+    Peak,
+    Slip,
+    SlipTally,
+    in_order,
+    peaks_of,
+    trip_loss,
+)
+from sim.table.run import (
+    AxisRun,
+    Engine,
+    InBodies,
+    axis_of,
+)
 from sim.table.ticks import Ticks
 from sim.table.trace import Trace
 

@@ -18,8 +18,8 @@ from parser.toolpath import Toolpath
 from sim.base.progress import Progress, silent
 from sim.setup.machine.machine import Machine
 from sim.table.follow import Following, Setup
-from sim.table.record.history import History
-from sim.table.record.losses import Loss, Peak
+from sim.table.history import History
+from sim.table.losses import Loss, Peak
 from sim.table.ticks import Ticks, choose_ticks, rhythm
 from sim.table.trace import Trace, origin_um
 

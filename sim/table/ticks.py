@@ -14,8 +14,8 @@ from controller.motion.plan import Plan
 from parser.geometry.along import directions
 from parser.geometry.curves import Floats, Ints
 from parser.toolpath import Toolpath
-from sim.setup.machine.table_model import TableModel
-from sim.table.physics.drive import drives_of
+from sim.setup.machine.machine import TableModel
+from sim.table.drive import drives_of
 
 STEP_RAD = 0.125
 """Phase of the ringing in one tick while single steps are felt: fifty ticks to the period."""

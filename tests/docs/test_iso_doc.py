@@ -7,8 +7,8 @@ from places import ROOT
 
 from parser.findings.catalogue import page
 from parser.findings.codes import CODES
-from parser.iso.families.family import amount
-from parser.iso.families.marks import MARKS
+from parser.iso.family import amount
+from parser.iso.marks import MARKS
 from parser.iso.profiles.profile import PROFILES, profile
 
 DOC = (ROOT / "docs/iso.md").read_text(encoding="utf-8")

@@ -13,7 +13,7 @@ from report_pages import PART
 from parser.program import parse_program
 from sim.check.settings import CheckSettings
 from sim.show.drill_page import answers_page, drill_page
-from sim.teach.drill.drills import DrillRequest, drills_of
+from sim.teach.drills import DrillRequest, drills_of
 
 if TYPE_CHECKING:
     from playwright.sync_api import Locator, Page

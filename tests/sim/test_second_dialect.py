@@ -271,7 +271,7 @@ _SPEAK_3B = {
     "sim/check/radius_rule.py": "the marks of 4B, where a program has them",
     "sim/cli/convert.py": "writes 3B, whose forms its options name",
     "sim/cli/program.py": "makes 3B, which its help names",
-    "sim/teach/drill/kinds.py": "letters that a hand leaves out of blocks, where a program has them",
+    "sim/teach/kinds.py": "letters that a hand leaves out of blocks, where a program has them",
     "sim/setup/making.py": "makes 3B, whose forms and codes its types name",
     "sim/setup/program_section.py": "asks for 3B, whose forms and codes its settings name",
     "sim/run/ballbar/circle.py": "writes the circle of the test as a 3B program",

@@ -7,7 +7,7 @@ from report_pages import PART
 from parser.program import Program, parse_program
 from sim.check.settings import CheckSettings
 from sim.show.drill_page import answers_page, drill_page
-from sim.teach.drill.drills import Drill, DrillRequest, drills_of
+from sim.teach.drills import Drill, DrillRequest, drills_of
 
 
 @cache

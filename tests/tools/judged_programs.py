@@ -29,7 +29,7 @@ from runs import plain_scenario
 from sound_cam import plain_sweep
 
 from sim.make.cam.maker import MadeProgram, NotMade, made_program, unproved
-from sim.make.convert.wanted import Wanted
+from sim.make.wanted import Wanted
 from sim.setup.making import Making
 
 Points = npt.NDArray[np.float64]

@@ -11,7 +11,7 @@ from runs import plain_scenario
 
 from controller.stepping.pulses import Pulses, time_steps
 from parser.program import parse_program
-from sim.measure.deviation.causes import StepTally
+from sim.measure.causes import StepTally
 from sim.run.dryrun import DryRun
 from sim.run.prepare import prepare
 from sim.run.recording import Recording

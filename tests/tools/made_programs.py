@@ -17,8 +17,8 @@ from sim.make.cam.maker import planned
 from sim.make.cam.model import CutPlan, FigureCut
 from sim.make.cam.proof import ToProve, proved
 from sim.make.cam.target import Proof
-from sim.make.convert.convert import proof as held_against
-from sim.make.convert.wanted import Wanted, read_with, written
+from sim.make.convert import proof as held_against
+from sim.make.wanted import Wanted, read_with, written
 from sim.setup.making import Making
 from sim.setup.scenario import Scenario
 

@@ -7,9 +7,9 @@ from typing import NamedTuple
 
 from cam_programs import Sound
 
-import sim.teach.drill.sound
+import sim.teach.sound
 from parser.program import parse_program
-from sim.teach.drill.kinds import KINDS as OF_DRILLS
+from sim.teach.kinds import KINDS as OF_DRILLS
 
 
 class Mutant(NamedTuple):
@@ -55,5 +55,5 @@ def mutant(rng: random.Random, sound: Sound, kind: str | None = None) -> Mutant 
 
 
 @cache
-def _read(text: str) -> sim.teach.drill.sound.Sound:
-    return sim.teach.drill.sound.Sound(parse_program(text))
+def _read(text: str) -> sim.teach.sound.Sound:
+    return sim.teach.sound.Sound(parse_program(text))

@@ -25,7 +25,7 @@ class _Mender:
         return one_slips(toolpath, first_row, past_row, most)
 
     def printed_mends(self, toolpath: Toolpath, row: int) -> tuple[Mend, ...]:
-        from parser.threeb.mend.printed import printed_mends  # noqa: PLC0415
+        from parser.threeb.mend.suspects import printed_mends  # noqa: PLC0415
 
         return printed_mends(toolpath, row)
 

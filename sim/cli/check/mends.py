@@ -22,9 +22,8 @@ from parser.text.encoding import printable
 from parser.text.lines import LINE_END
 from parser.text.places import place
 from sim.base.files import replace_file, staged
-from sim.check.file_check import Job
+from sim.check.file_check import Job, mended_text
 from sim.check.fixes import Choice, choices
-from sim.check.mended import mended_text
 from sim.check.settings import CheckSettings
 from sim.cli.scenario_options import describe
 from sim.show.terminal.printer import say, write, write_exactly

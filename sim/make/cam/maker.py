@@ -36,9 +36,15 @@ from sim.make.cam.passes import figure_cut, offsets_of
 from sim.make.cam.proof import ToProve, proved
 from sim.make.cam.target import Proof, least_um, target_of
 from sim.make.cam.threads import thread_notes, threads_of
-from sim.make.convert.convert import Proof as Written
-from sim.make.convert.convert import proof as held_against
-from sim.make.convert.wanted import Wanted, begun, encoded, read_with, written
+from sim.make.convert import Proof as Written
+from sim.make.convert import proof as held_against
+from sim.make.wanted import (
+    Wanted,
+    begun,
+    encoded,
+    read_with,
+    written,
+)
 from sim.measure.compare.compare import compare_program
 from sim.measure.compare.result import FitRequest
 from sim.setup.making import Language, Making, ToMake, Writing

@@ -20,7 +20,7 @@ from parser.geometry.along import deepest, headings_at, places
 from parser.geometry.curves import Bools, Curves, Floats, Ints, curves_between, joined
 from parser.geometry.distance import feet
 from parser.toolpath import Point, Toolpath
-from sim.cut.kerf.nominal import nominal_region
+from sim.cut.kerf.edges import nominal_region
 from sim.cut.regions import cut_by_blocks, union_all
 from sim.measure.compare.nearest import Index, indexed, nearest
 from sim.measure.compare.result import Edge, LeadGouge

@@ -34,9 +34,9 @@ from sim.run.ballbar.figures import (
 from sim.run.ballbar.model import BallbarDocument, FiguresEntry, LossEntry, PartsEntry, ReversalEntry, SenseEntry
 from sim.setup.machine.machine import Machine
 from sim.setup.toml.reader import Bound, number
+from sim.table.losses import Loss
 from sim.table.motion import Motion, TableRun, driven, motion_of
-from sim.table.physics.rating import motors_um
-from sim.table.record.losses import Loss
+from sim.table.rating import motors_um
 
 FEED_MM_MIN: Final = Bound(0.1, 100_000.0)
 LEAST_RADIUS_MM: Final = 0.1

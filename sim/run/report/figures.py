@@ -18,14 +18,14 @@ from sim.check.offset import Offsetting
 from sim.cut.kerf.edges import Range
 from sim.cut.kerf.swept import Kerf
 from sim.cut.pieces.pieces import Frame, Piece
-from sim.cut.play.freedom import Play
+from sim.cut.play import Play
+from sim.cut.regions import simpler
 from sim.cut.remains import Remains
 from sim.cut.sizes import BoxSize, DistanceSize, RadiusSize, Sizes
-from sim.measure.deviation.causes import Deviations, Part
-from sim.measure.deviation.deviation import Deviation, Where
+from sim.measure.causes import Deviations, Part
+from sim.measure.deviation import Deviation, Where
 from sim.run.dryrun import DryRun
 from sim.run.ending import Ending
-from sim.run.outlines import simpler
 from sim.run.report.cut_model import (
     BoxEntry,
     DistanceEntry,
@@ -50,7 +50,7 @@ from sim.run.report.run_model import (
     OffsetEntry,
     WhereEntry,
 )
-from sim.table.record.losses import Loss, Peak
+from sim.table.losses import Loss, Peak
 
 
 def deviation_entries(deviations: Deviations, ran_s: float) -> DeviationsEntry:

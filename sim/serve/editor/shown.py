@@ -41,8 +41,7 @@ from parser.text.lines import LineIndex
 from parser.text.source import Span
 from parser.toolpath import Block, Point, Toolpath
 from parser.units import mm_text
-from sim.check.file_check import AsTyped
-from sim.check.mended import mended_text
+from sim.check.file_check import AsTyped, mended_text
 from sim.show.texts import Words
 
 _BEYOND_16: Final = "\uffff"

@@ -19,9 +19,9 @@ from starlette.routing import Route
 from parser.findings.errors import FileUnreadableError, ProgramError
 from parser.text.encoding import printable
 from sim.serve.page.answers import ReadFile, answer, file_of, read_file
+from sim.serve.page.child import Life
 from sim.serve.page.drawings import Drawings, is_drawing
 from sim.serve.page.form import Chosen, chosen
-from sim.serve.page.life import Life
 from sim.serve.page.programs import STARTS, Programs, row_or_why, start
 from sim.serve.page.runs import (
     MISSING,

@@ -1,7 +1,11 @@
-"""A process of drycut's own: it is told one thing, tells others a line each, and can be ended at any moment.
+"""Processes of the page: one of drycut's own that can be ended at any moment, and how long the server itself lives.
+
+A process of drycut's own: it is told one thing, tells others a line each, and can be ended at any moment.
 
 How the process of a job speaks to the server: it is asked by a line of JSON on stdin, and tells lines of JSON on
 stdout. The server holds its end of stdin as long as it lives: where that closes, the process ends too.
+
+How long the server lives: until it is told to end, or no page has been open for a while.
 """
 
 import asyncio
@@ -10,6 +14,7 @@ import json
 import os
 import sys
 import threading
+import time
 from collections.abc import AsyncIterator, Callable, Mapping, Sequence
 from typing import Any, Final
 
@@ -130,3 +135,31 @@ async def begun(module: str, *, ahead: bool = False) -> Child:
     return Child(
         await asyncio.create_subprocess_exec(*command, stdin=pipe, stdout=pipe, stderr=nowhere, limit=_LONGEST_LINE)
     )
+
+
+FIRST_S: Final = 300.0
+"""A browser may take its time to start, or the address be copied to it by hand."""
+AWAY_S: Final = 60.0
+"""Browsers wake hidden pages once a minute at least, and these say so each time: a closed one is silent."""
+
+
+class Life:
+    """Whether the page is still there; `now` tells the time, s."""
+
+    def __init__(self, now: Callable[[], float] = time.monotonic) -> None:
+        self._now = now
+        self._until = now() + FIRST_S
+        self._is_ended = False
+
+    def note_page(self) -> None:
+        """The page was heard of."""
+        self._until = self._now() + 2.0 * AWAY_S
+
+    def end(self) -> None:
+        """It is to end now."""
+        self._is_ended = True
+
+    @property
+    def is_over(self) -> bool:
+        """Whether it is to end."""
+        return self._is_ended or self._now() > self._until

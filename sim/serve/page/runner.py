@@ -32,7 +32,7 @@ from sim.show.film.writers import FORMATS, format_of, write_film
 from sim.show.pictures.files import PictureFiles, write_pictures
 from sim.show.pictures.gallery import PICTURES, subject_of
 from sim.show.texts.phrases import machine_name
-from sim.teach.drill import drills as drill_set
+from sim.teach import drills as drill_set
 
 _MOST_FOUND: Final = 200
 """Findings of a run that the page lists; its report has all."""

@@ -27,9 +27,8 @@ from starlette.requests import ClientDisconnect, Request
 from starlette.responses import FileResponse, JSONResponse, Response, StreamingResponse
 
 from parser.text.encoding import printable
-from sim.serve.page.child import Child, begun
+from sim.serve.page.child import Child, Life, begun
 from sim.serve.page.drawings import LOOK_KEYS, MAKE_KEYS, Drawings, safe_name
-from sim.serve.page.life import Life
 from sim.serve.page.programs import Programs
 from sim.setup.settable import FIELDS
 

@@ -25,8 +25,8 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from parser.findings.errors import DrycutError, system_message
 from sim.base.files import scratch
 from sim.serve.page.app import app_of
+from sim.serve.page.child import Life
 from sim.serve.page.drawings import Drawings
-from sim.serve.page.life import Life
 from sim.serve.page.programs import Programs
 from sim.serve.page.runs import Runs
 

@@ -1,26 +1,306 @@
-"""Machine files: table, controller and cutting rates of one machine, read from TOML and written as it."""
+"""Machine files: table, motor, controller and cutting rates of one machine, read from TOML and written as it.
 
+The sections of a machine file: ``[table]`` and ``[motor]``, what is moved and resists, and ``[controller]``.
+
+The ``[table]`` and ``[motor]`` sections of a machine file: what is moved, what moves it, and what resists.
+
+The ``[controller]`` section of a machine file: limits of motion, the rule at junctions, and the interpolator.
+
+Machine files: table, controller and cutting rates of one machine, read from TOML and written as it.
+"""
+
+import math
+from collections.abc import Callable, Mapping
 from importlib import resources
+from itertools import pairwise
 from pathlib import Path
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple, get_args
 
+from controller.card.core.settings import UM_S3_PER_PULSE_MS3, CardSettings
 from controller.host.entries import Interpolation
-from controller.motion.limits import Feeds
-from parser.findings.errors import SettingsError
+from controller.motion.limits import Feeds, Junction, JunctionDeviation, MotionLimits, SlowAt, StopEach, Through
+from parser.dialect.reader import Registers
+from parser.findings.errors import Message, SettingsError
 from parser.units import from_mm
-from sim.setup.machine.table_model import (
-    CONTROLLER,
-    MOTOR,
-    TABLE,
-    ControllerModel,
-    TableModel,
-    read_controller,
-    read_table,
-)
+from sim.setup.dialect import REGISTERS
 from sim.setup.obstacles import ARM, Outline
 from sim.setup.toml.keys import Key, Section, WrittenSection
-from sim.setup.toml.kinds import Keys, Number, Text
-from sim.setup.toml.reader import AREA_RATE_MM2_MIN, load_toml
+from sim.setup.toml.kinds import (
+    DEGREES_AS_RAD,
+    MM_AS_UM,
+    MS_AS_S,
+    US_AS_S,
+    Keys,
+    Number,
+    OneOf,
+    Text,
+    ValueKind,
+    limits,
+)
+from sim.setup.toml.reader import AREA_RATE_MM2_MIN, Bound, load_toml, number, section
+
+_FORCE_N = Bound(0.1, 1e6)
+_RATE_HZ = Bound(0.0, 1e7)
+_TRAVEL = Number(Bound(1.0, 10_000.0), "mm")
+_MASS = Number(Bound(0.01, 100_000.0), "kg")
+_FRICTION = Number(Bound(0.0, 1e6), "N")
+_VISCOUS = Number(Bound(0.0, 1e6), "N s/mm")
+_BACKLASH = Number(Bound(0.0, 1e4), "µm")
+_OF_KIND = {"stepper": "electrical_period_um", "servo": "following_error_limit_um"}
+
+
+class Motor(NamedTuple):
+    """What turns the screw of each axis.
+
+    Attributes
+    ----------
+    kind
+        A stepper slips by whole electrical periods past its pull-out, a servo trips on its following error.
+    step_time_s
+        Time the motor takes for one step: it turns at constant speed from one place to the next.
+    electrical_period_um
+        Way of the table in one electrical period: six beats of 1 µm of a three-phase stepper with six beats.
+    following_error_limit_um
+        Lag at which a servo trips; infinite for a stepper.
+    force_curve
+        (step rate Hz, force N) from standstill on, rates rising; the force is linear between and constant past the
+        last.
+    """
+
+    kind: Literal["stepper", "servo"]
+    step_time_s: float
+    electrical_period_um: float
+    following_error_limit_um: float
+    force_curve: tuple[tuple[float, float], ...]
+
+    @property
+    def may_trip(self) -> bool:
+        """Whether it is a servo."""
+        return self.kind == "servo"
+
+
+class TableModel(NamedTuple):
+    """Moving masses, drives and what resists them; mm, kg, N as named, pairs for X and Y.
+
+    The X drive moves saddle and carriage, the Y drive the carriage.
+    """
+
+    travel_x_mm: float
+    travel_y_mm: float
+    saddle_mass_kg: float
+    carriage_mass_kg: float
+    drive_stiffness_n_um: float
+    drive_damping_ratio: float
+    motor: Motor
+    friction_n: tuple[float, float] = (0.0, 0.0)
+    viscous_n_s_mm: tuple[float, float] = (0.0, 0.0)
+    backlash_um: tuple[float, float] = (0.0, 0.0)
+
+    @property
+    def moved_kg(self) -> tuple[float, float]:
+        """Mass that the X and the Y drive have to move."""
+        return self.saddle_mass_kg + self.carriage_mass_kg, self.carriage_mass_kg
+
+
+class _ForceAtRate(ValueKind):
+    """Points [step rate Hz, force N] of a curve that begins with the force limit at standstill."""
+
+    name = "force-at-rate"
+
+    def checked(self, table: Mapping[str, Any], key: str, where: str) -> tuple[tuple[float, float], ...]:
+        """Its points."""
+        value, where = table[key], f"{where}: {key}"
+        if not isinstance(value, list) or not all(isinstance(point, list) and len(point) == 2 for point in value):
+            raise SettingsError("no-list-of-rates", where=where, found=value)
+        points = tuple(
+            (number(rate, _RATE_HZ, f"{where}: Hz"), number(force, _FORCE_N, f"{where}: N")) for rate, force in value
+        )
+        rates = (0.0, *(rate for rate, _ in points))
+        if any(later <= earlier for earlier, later in pairwise(rates)):
+            raise SettingsError("rates-do-not-rise", where=where, rates=list(rates[1:]))
+        return points
+
+    def written(self, value: Any) -> list[list[float]]:
+        """A list of lists."""
+        return [list(point) for point in value]
+
+    def schema(self) -> dict[str, Any]:
+        """Of its values."""
+        rate, force = ({"type": "number", **limits(bound)} for bound in (_RATE_HZ, _FORCE_N))
+        point = {"type": "array", "minItems": 2, "maxItems": 2, "prefixItems": [rate, force]}
+        return {"type": "array", "items": point}
+
+
+TABLE = Section(
+    "table",
+    (
+        Key("travel_x_mm", _TRAVEL),
+        Key("travel_y_mm", _TRAVEL),
+        Key("saddle_mass_kg", _MASS),
+        Key("carriage_mass_kg", _MASS),
+        Key("drive_stiffness_n_um", Number(Bound(1e-3, 1e5), "N/µm")),
+        Key("drive_damping_ratio", Number(Bound(0.01, 10.0))),
+        Key("friction_x_n", _FRICTION, "friction_n.0", default=0.0),
+        Key("friction_y_n", _FRICTION, "friction_n.1", default=0.0),
+        Key("viscous_x_n_s_mm", _VISCOUS, "viscous_n_s_mm.0", default=0.0),
+        Key("viscous_y_n_s_mm", _VISCOUS, "viscous_n_s_mm.1", default=0.0),
+        Key("backlash_x_um", _BACKLASH, "backlash_um.0", default=0.0),
+        Key("backlash_y_um", _BACKLASH, "backlash_um.1", default=0.0),
+        Key("drive_force_limit_n", Number(_FORCE_N, "N"), get=lambda table: table.motor.force_curve[0][1]),
+    ),
+    fills="table",
+)
+
+MOTOR = Section(
+    "motor",
+    (
+        Key("kind", OneOf(tuple(_OF_KIND)), default="stepper"),
+        Key("step_time_ms", Number(Bound(0.0, 1e3), "ms", MS_AS_S), "step_time_s", default=2.0),
+        Key(
+            "electrical_period_um",
+            Number(Bound(0.1, 1e4), "µm"),
+            default=6.0,
+            get=lambda motor: motor.electrical_period_um if motor.kind == "stepper" else None,
+        ),
+        Key("following_error_limit_um", Number(Bound(0.1, 1e6), "µm"), default=math.inf),
+        Key("force_at_rate", _ForceAtRate(), default=(), get=lambda motor: motor.force_curve[1:] or None),
+    ),
+    fills="table.motor",
+)
+
+
+def read_table(content: Mapping[str, Any], where: str) -> TableModel:
+    """Table of the sections ``[table]`` and ``[motor]`` of a machine file. SettingsError names the file and the key."""
+    value = TABLE.read_in(content, where)
+    force_n = value.pop("drive_force_limit_n")
+    return TableModel(motor=_motor(section(content, "motor", where), force_n, f"{where}: [motor]"), **value)
+
+
+def _motor(table: Mapping[str, Any], force_n: float, where: str) -> Motor:
+    """Motor of a section; `force_n` is what it pulls at standstill."""
+    value = MOTOR.read(table, where)
+    kind = value["kind"]
+    for of, key in _OF_KIND.items():
+        if kind != of and key in table:
+            raise SettingsError("key-of-another-kind", where=where, key=key, of=of, kind=kind)
+    if kind == "servo" and "following_error_limit_um" not in table:
+        raise SettingsError("following-error-limit-missing", where=where)
+    return Motor(force_curve=((0.0, force_n), *value.pop("force_at_rate")), **value)
+
+
+_SPEED = Bound(1e-3, 1e3)
+_FEED = Number(_SPEED, "mm/s", MM_AS_UM)
+_ACCELERATION = Number(Bound(0.01, 1e5), "mm/s²", MM_AS_UM)
+_JUNCTIONS: Mapping[str, type[Any]] = {
+    "through": Through,
+    "slow": SlowAt,
+    "stop": StopEach,
+    "deviation": JunctionDeviation,
+}
+_OWN_NUMBER = {"slow": "corner_feed_mm_s", "deviation": "junction_deviation_um"}
+
+
+class ControllerModel(NamedTuple):
+    """How the controller moves.
+
+    Attributes
+    ----------
+    limits
+        Of motion, µm and s.
+    cut_step_limit_hz
+        Highest feed of a cut, in steps of 1 µm of path a second.
+    jump_feed_mm_s
+        Feed of jumps.
+    interpolation
+        How it makes steps of a path.
+    servo_period_s
+        Period of the card's own interpolator.
+    registers
+        Values of offset registers that stand on it, for ISO programs that name one and do not set it.
+    """
+
+    limits: MotionLimits
+    cut_step_limit_hz: float
+    jump_feed_mm_s: float
+    interpolation: Interpolation
+    servo_period_s: float
+    registers: Registers = ()
+
+    @property
+    def card_settings(self) -> CardSettings:
+        """Settings of the emulated card that moves as this controller does; one pulse is 1 µm."""
+        return CardSettings(
+            servo_period_s=self.servo_period_s,
+            jerk_pulse_ms3=self.limits.jerk_um_s3 / UM_S3_PER_PULSE_MS3,
+        )
+
+
+class _WholeMs(Number):
+    """A wait in whole milliseconds, as controllers take it."""
+
+    def checked(self, table: Mapping[str, Any], key: str, where: str) -> Any:
+        """The wait, ms."""
+        wait_ms = super().checked(table, key, where)
+        if wait_ms != int(wait_ms):
+            raise SettingsError("key-not-whole", where=where, key=key, found=wait_ms)
+        return wait_ms
+
+
+def _of_rule(attribute: str) -> Callable[[ControllerModel], float | None]:
+    """How the number of a rule at junctions is found; other rules have none."""
+    return lambda controller: getattr(controller.limits.junction, attribute, None)
+
+
+def _rule(controller: ControllerModel) -> str:
+    """Name of the rule at junctions."""
+    return next(name for name, rule in _JUNCTIONS.items() if isinstance(controller.limits.junction, rule))
+
+
+INTERPOLATOR = OneOf(get_args(Interpolation))
+
+CONTROLLER = Section(
+    "controller",
+    (
+        Key("path_acceleration_mm_s2", _ACCELERATION, "limits.acceleration_um_s2"),
+        Key("cut_step_limit_hz", Number(Bound(0.1, 1e6), "Hz")),
+        Key("jump_feed_mm_s", Number(_SPEED, "mm/s")),
+        Key("axis_feed_x_mm_s", _FEED, "limits.axis_speed_um_s.0", default=math.inf),
+        Key("axis_feed_y_mm_s", _FEED, "limits.axis_speed_um_s.1", default=math.inf),
+        Key("axis_acceleration_x_mm_s2", _ACCELERATION, "limits.axis_acceleration_um_s2.0", default=math.inf),
+        Key("axis_acceleration_y_mm_s2", _ACCELERATION, "limits.axis_acceleration_um_s2.1", default=math.inf),
+        Key("start_feed_mm_s", Number(Bound(0.0, 1e3), "mm/s", MM_AS_UM), "limits.start_speed_um_s", default=0.0),
+        Key("corner_angle_deg", Number(Bound(0.0, 180.0), "°", DEGREES_AS_RAD), "limits.corner_angle_rad", default=5.0),
+        Key("corner_wait_ms", _WholeMs(Bound(0.0, 1e6), "ms", MS_AS_S), "limits.corner_wait_s", default=0.0),
+        Key("jerk_mm_s3", Number(Bound(0.01, 1e9), "mm/s³", MM_AS_UM), "limits.jerk_um_s3", default=math.inf),
+        Key("servo_period_us", Number(Bound(10.0, 1e4), "µs", US_AS_S), "servo_period_s", default=200.0),
+        Key("junction", OneOf(tuple(_JUNCTIONS)), default="through", get=_rule),
+        Key("corner_feed_mm_s", Number(Bound(1e-6, 1e3), "mm/s", MM_AS_UM), default=None, get=_of_rule("speed_um_s")),
+        Key("junction_deviation_um", Number(Bound(1e-3, 1e3), "µm"), default=None, get=_of_rule("deviation_um")),
+        Key("interpolator", INTERPOLATOR, "interpolation", default="point-by-point"),
+        REGISTERS,
+    ),
+    fills="controller",
+)
+
+
+def read_controller(content: Mapping[str, Any], where: str) -> ControllerModel:
+    """Controller of the section ``[controller]`` of a machine file. SettingsError names the file and the key."""
+    value = CONTROLLER.read_in(content, where)
+    junction = _junction(value, f"{where}: {CONTROLLER.header}")
+    return ControllerModel(limits=MotionLimits(junction=junction, **value.pop("limits")), **value)
+
+
+def _junction(value: dict[str, Any], where: str) -> Junction:
+    """Rule at junctions, taken from the values with its own number, which has to be given with it."""
+    rule = value.pop("junction")
+    own = {of: value.pop(key) for of, key in _OWN_NUMBER.items()}
+    for of, key in _OWN_NUMBER.items():
+        if (rule == of) != (own[of] is not None):
+            needs = Message("needs-number", key=key) if rule == of else Message("takes-no-number", key=key, rule=of)
+            raise SettingsError("junction-number", where=where, rule=rule, why=needs)
+    made: Junction = _JUNCTIONS[rule](*([own[rule]] if rule in own else []))
+    return made
+
 
 TOP = Section(
     "machine",

@@ -23,8 +23,8 @@ from sim.show.draw.flatten import bounds_um, cut_runs, flatten, simplify
 from sim.show.draw.svg import path_data
 from sim.show.html.environment import rendered
 from sim.show.texts import bilingual
-from sim.teach.drill.drills import Drill, lines_of
-from sim.teach.drill.kinds import groups_of
+from sim.teach.drills import Drill, lines_of
+from sim.teach.kinds import groups_of
 
 WIDTH, HEIGHT = 720, 480
 """Of the box that the picture fills, whole units; y points down."""

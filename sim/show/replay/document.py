@@ -37,11 +37,11 @@ from sim.base.units import (
     rounded,
 )
 from sim.cut.pieces.pieces import Piece
+from sim.cut.regions import simpler
 from sim.run.course import Happening, PassOf, course_of, passes_of
 from sim.run.dryrun import DryRun
 from sim.run.ending import Ending
 from sim.run.findings import outcome
-from sim.run.outlines import simpler
 from sim.run.recording import Recording
 from sim.setup.obstacles import Outline
 from sim.show.decoded import buffer_text, order_text, value_text, way_texts, word_text
@@ -70,7 +70,7 @@ from sim.show.replay.quiz import quiz_of
 from sim.show.replay.tape import drawing_columns, exact_columns, tape
 from sim.show.texts.phrases import machine_name, named_pass
 from sim.table.follow import Setup
-from sim.table.record.losses import Loss
+from sim.table.losses import Loss
 from sim.table.trace import origin_um
 
 

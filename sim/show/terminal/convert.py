@@ -13,8 +13,8 @@ from parser.text.encoding import printable
 from parser.toolpath import Toolpath
 from parser.units import mm
 from parser.write.losses import Loss
-from sim.make.convert.convert import Converted, Refused
-from sim.make.convert.wanted import Wanted
+from sim.make.convert import Converted, Refused
+from sim.make.wanted import Wanted
 from sim.show.terminal.finding import finding_lines
 from sim.show.terminal.printer import painted, styled
 from sim.show.terminal.wrap import wrapped

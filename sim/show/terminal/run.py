@@ -16,7 +16,7 @@ from parser.text.source import BlockNames
 from parser.units import mm, mm_text
 from sim.base.units import in_figures
 from sim.cut.pieces.pieces import Piece
-from sim.measure.deviation.deviation import Where
+from sim.measure.deviation import Where
 from sim.measure.passes import PassFigures
 from sim.run.dryrun import DryRun
 from sim.run.findings import outcome
@@ -29,7 +29,7 @@ from sim.show.terminal.streams import outlet
 from sim.show.terminal.wrap import width_of
 from sim.show.texts import Words
 from sim.show.texts.phrases import lasting, machine_name, numbered
-from sim.table.record.losses import Peak
+from sim.table.losses import Peak
 
 _MOST_PIECES = 4
 _MOST_PASSES = 8

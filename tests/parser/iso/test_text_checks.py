@@ -9,8 +9,8 @@ from parser.findings.codes import Severity
 from parser.findings.findings import Finding, edited
 from parser.iso.listing.lexer import read_listing
 from parser.iso.listing.listing import Listing
+from parser.iso.numbering import checked
 from parser.iso.profiles.profile import profile
-from parser.iso.words.numbering import checked
 from parser.program import parse_program
 
 COMMON = profile("common")

@@ -9,7 +9,7 @@ from parser.findings.codes import Severity
 from parser.findings.findings import Finding, TooLarge, telling
 from parser.iso.listing.lexer import read_listing
 from parser.iso.profiles.profile import PROFILES, profile
-from parser.iso.words.word_checks import GROUPS, word_findings
+from parser.iso.word_checks import GROUPS, word_findings
 from parser.program import parse_program
 from sim.check.file_check import Job, check_file
 from sim.check.settings import CheckSettings

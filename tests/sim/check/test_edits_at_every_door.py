@@ -14,8 +14,7 @@ from depth import cases
 from lsprotocol.types import CodeAction, CodeActionKind, Position, Range, TextDocumentEdit, TextEdit
 
 from parser.program import load_program
-from sim.check.file_check import as_typed
-from sim.check.mended import mended_text
+from sim.check.file_check import as_typed, mended_text
 from sim.check.settings import CheckSettings
 from sim.cli.check.mends import for_tools
 from sim.serve.editor.server import actions_of

@@ -33,7 +33,7 @@ def test_thousands_of_wrong_printed_ends_are_not_mended_one_by_one(
     def asked(*_: object) -> None:
         raise AssertionError("a wrong end was looked at alone")
 
-    monkeypatch.setattr("parser.threeb.mend.printed.printed_mends", asked)
+    monkeypatch.setattr("parser.threeb.mend.suspects.printed_mends", asked)
     monkeypatch.setattr("parser.threeb.print_checks.is_misprint", asked)
     path = tmp_path / "part.3b"
     path.write_text("".join(f"B9B0B9GXL1;{0.009 + i % 2}00,0.000\nB9B0B9GXL3;0.000,0.000\n" for i in range(200)) + "DD")

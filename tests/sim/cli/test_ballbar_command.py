@@ -29,7 +29,7 @@ from sim.show.draw.chart import RING_SIZES, RINGS, ring_for
 from sim.show.draw.style import LIGHT, Paint
 from sim.show.pictures.ballbar import draw_ballbar
 from sim.show.terminal.batch import print_ballbar
-from sim.table.record.losses import Loss
+from sim.table.losses import Loss
 
 SMALL = ("ballbar", "--radius", "1mm")
 PAGE = (ROOT / "docs" / "ballbar.md").read_text(encoding="utf-8")

@@ -131,7 +131,7 @@ def test_a_file_that_is_no_program_is_bad_use(tmp_path: Path) -> None:
 def test_every_loss_and_refusal_has_its_words() -> None:
     code = "".join(
         path.read_text(encoding="utf-8")
-        for folder in ("sim/make/convert", "parser/write")
+        for folder in ("sim/make", "parser/write")
         for path in sorted((ROOT / folder).glob("*.py"))
     )
     named = {f"lost-{name}" for name in re.findall(r'(?:Loss|_named|_of)\(\s*"([a-z-]+)"', code)}

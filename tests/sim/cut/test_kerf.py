@@ -11,7 +11,7 @@ from paths import Pen
 from traced import F, contours_of, kerf_along, trace_of
 
 from parser.toolpath import Toolpath
-from sim.cut.kerf.nominal import nominal_region
+from sim.cut.kerf.edges import nominal_region
 from sim.cut.kerf.swept import kerf_of
 from sim.table.trace import Trace
 

@@ -9,15 +9,14 @@ from paths import Pen
 from traced import STEEL, F, kerf_along, pieces_along, trace_of
 
 from parser.toolpath import Toolpath
-from sim.cut import sizes
-from sim.cut.kerf.nominal import nominal_region
+from sim.cut import play, sizes
+from sim.cut.kerf.edges import nominal_region
 from sim.cut.kerf.shapes import SIMPLER_UM, rays, stars
 from sim.cut.kerf.ways import rows_that_made
 from sim.cut.pieces import frees, kept_edges
 from sim.cut.pieces.kept_edges import lie_on
 from sim.cut.pieces.pieces import pieces_of
-from sim.cut.play import freedom
-from sim.cut.play.freedom import plays_of
+from sim.cut.play import plays_of
 from sim.cut.sizes import sizes_of
 
 
@@ -85,9 +84,9 @@ def test_parts_alone_in_a_hole_come_free_when_a_larger_box_would_tell_that_they_
 @pytest.mark.parametrize("path", [lattice(4), flower()], ids=["lattice", "flower"])
 def test_pieces_touch_the_walls_near_them_as_among_all_walls(path, monkeypatch):
     pieces = pieces_along(path)
-    monkeypatch.setattr(freedom, "_NEAR_UM", 300.0)
+    monkeypatch.setattr(play, "_NEAR_UM", 300.0)
     near = plays_of(pieces, 90.0)
-    monkeypatch.setattr(freedom, "_NEAR_UM", 1e6)
+    monkeypatch.setattr(play, "_NEAR_UM", 1e6)
     for one, other in zip(near, plays_of(pieces, 90.0), strict=True):
         within = one.exact_to_um + other.exact_to_um
         shifts = [[shift.by_um for shift in play.shifts] for play in (one, other)]

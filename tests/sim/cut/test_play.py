@@ -10,7 +10,7 @@ from shapely import affinity
 from traced import F, pieces_along, square
 
 from parser.toolpath import Point
-from sim.cut.play.freedom import play_between, plays_of
+from sim.cut.play import play_between, plays_of
 
 WIRE = 90.0
 BESIDE = Point(0.0, 5100.0)

@@ -17,11 +17,17 @@ from controller.motion.plan import Plan
 from parser.program import read_program
 from parser.toolpath import Toolpath
 from sim.base.progress import silent
-from sim.measure.deviation.causes import NOTHING, Deviations, Stage, added, cut_off
-from sim.measure.deviation.deviation import DeviationMeter, across_um, summed
+from sim.measure.causes import (
+    NOTHING,
+    Deviations,
+    Stage,
+    added,
+    cut_off,
+)
+from sim.measure.deviation import DeviationMeter, across_um, summed
 from sim.run.dryrun import DryRun
 from sim.run.running import dry_run
-from sim.setup.machine.table_model import read_controller
+from sim.setup.machine.machine import read_controller
 from sim.setup.scenario import load_scenario
 from sim.setup.wire import DEFAULT_WIRE
 from sim.table.trace import Trace

@@ -14,7 +14,7 @@ from parser.geometry.curves import CurveKind
 from parser.program import parse_program
 from parser.toolpath import Block, Toolpath
 from sim.measure.curve_rows import curve_rows
-from sim.measure.deviation.deviation import DeviationMeter, away_from_path
+from sim.measure.deviation import DeviationMeter, away_from_path
 
 SPOTS = 4001
 

@@ -12,10 +12,10 @@ from parser.program import parse_program
 from parser.toolpath import Stop
 from sim.base.progress import silent
 from sim.cut.pieces.pieces import Piece
-from sim.measure.deviation.deviation import across_um
+from sim.measure.deviation import across_um
 from sim.run.course import Course, course_of
 from sim.run.recording import recorded
-from sim.table.record.losses import Loss
+from sim.table.losses import Loss
 
 PART = """
 B300 B0 B300 GX L1

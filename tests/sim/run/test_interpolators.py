@@ -13,7 +13,7 @@ from parser.findings.errors import SettingsError
 from parser.program import read_program
 from sim.run.report import build_report
 from sim.run.running import dry_run
-from sim.setup.machine.table_model import read_controller
+from sim.setup.machine.machine import read_controller
 from sim.setup.scenario import load_scenario
 
 RING = "B9900B0B9900GXL1 B9900B0B39600GYNR1 B9900B0B9900GXL3 DD"

@@ -17,7 +17,7 @@ from sim.jobs.run_into import run_into
 from sim.run.report import build_report
 from sim.setup.wire import DEFAULT_WIRE
 from sim.show.terminal.run import print_summary
-from sim.table.record.losses import Loss, Peak
+from sim.table.losses import Loss, Peak
 
 # A line of 3 mm, a half turn of R 2 mm to the left, back down by 3 mm, a pause, a jump: nothing lies on itself.
 TEXT = (

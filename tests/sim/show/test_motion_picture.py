@@ -13,13 +13,12 @@ from runs import run_text, scenario_run
 from parser.geometry.curves import Floats
 from sim.base.units import in_figures
 from sim.run.dryrun import DryRun
-from sim.show.draw.labels import MOST_NUMBERS
-from sim.show.draw.layout import Box
+from sim.show.draw.layout import MOST_NUMBERS, Box
 from sim.show.draw.sheet import SIZES_PX, drawing, pixels
 from sim.show.draw.style import DARK, Paint
 from sim.show.pictures.motion.panels import PAUSE
 from sim.show.pictures.motion.picture import draw_motion
-from sim.table.record.history import Envelope, History
+from sim.table.history import Envelope, History
 
 TEXT = "B800B0B800GXL1 D B0B500B500GYL2 B300B0B300GXL3 DD"
 

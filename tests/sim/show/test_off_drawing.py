@@ -10,8 +10,8 @@ from sim.measure.compare.result import Strips, strips_of
 from sim.run.dryrun import DryRun
 from sim.run.recording import pieces_of_run
 from sim.show.draw.style import Paint
+from sim.show.pictures.cut.lines import times_wider
 from sim.show.pictures.cut.of_run import cut_of_run, draw_cut_of_run
-from sim.show.pictures.cut.off_drawing import times_wider
 from sim.show.pictures.cut.picture import Shapes, layout_of
 from sim.show.replay.document import replay_document
 

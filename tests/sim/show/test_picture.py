@@ -19,8 +19,18 @@ from parser.program import parse_program
 from parser.toolpath import Toolpath
 from sim.show.draw import style
 from sim.show.draw.flatten import along, bounds_um, flatten, simplify
-from sim.show.draw.labels import Anchors, Ink, Room, number_stride, place_numbers
-from sim.show.draw.layout import Box, mm_text, nice_below, page_for, ticks
+from sim.show.draw.layout import (
+    Anchors,
+    Box,
+    Ink,
+    Room,
+    mm_text,
+    nice_below,
+    number_stride,
+    page_for,
+    place_numbers,
+    ticks,
+)
 from sim.show.draw.legend import elide
 from sim.show.draw.raster import Raster
 from sim.show.draw.sheet import pixels

@@ -22,7 +22,7 @@ from controller.stepping.pulses import Pulses
 from parser.findings.catalogue import Bilingual
 from parser.findings.errors import SettingsError
 from parser.program import parse_program, read_program
-from sim.measure.deviation.causes import BlockSteps
+from sim.measure.causes import BlockSteps
 from sim.run.dryrun import DryRun
 from sim.setup import quiz
 from sim.setup.machine.machine import load_machine

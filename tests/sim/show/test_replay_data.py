@@ -27,7 +27,7 @@ from controller.stepping.pulses import Pulses
 from parser.geometry.curves import Floats
 from parser.program import parse_program
 from parser.toolpath import Point
-from sim.measure.deviation.deviation import across, across_um
+from sim.measure.deviation import across, across_um
 from sim.run.recording import Recording
 from sim.run.report import build_report
 from sim.setup.machine.machine import Machine, load_machine

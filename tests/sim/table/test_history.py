@@ -16,7 +16,7 @@ from controller.motion.limits import Feeds
 from controller.stepping.pulses import Pulses
 from parser.geometry.curves import Floats
 from sim.setup.machine.machine import load_machine
-from sim.table.record.history import (
+from sim.table.history import (
     BINS,
     LEAST_BINS,
     QUANTITIES,

@@ -20,9 +20,8 @@ from table_runs import (
 )
 
 from controller.motion.limits import Feeds
-from sim.setup.machine.machine import Machine, load_machine
-from sim.setup.machine.table_model import Motor, TableModel
-from sim.table.record.losses import Loss
+from sim.setup.machine.machine import Machine, Motor, TableModel, load_machine
+from sim.table.losses import Loss
 
 DAMPED = MODEL._replace(drive_damping_ratio=0.7)
 SERVO = Motor("servo", 0.002, 6.0, 20.0, ((0.0, 1e5),))

@@ -6,10 +6,9 @@ from table_runs import CENTRE, MODEL, Drawn, draw, even_ticks, motion, moved, pu
 
 from controller.motion.limits import Feeds
 from controller.stepping.pulses import Pulses
-from sim.setup.machine.machine import load_machine
-from sim.setup.machine.table_model import Motor, TableModel
+from sim.setup.machine.machine import Motor, TableModel, load_machine
+from sim.table.history import QUANTITIES
 from sim.table.motion import Moved
-from sim.table.record.history import QUANTITIES
 from sim.table.ticks import (
     SHAKEN_RAD,
     STEP_RAD,

@@ -11,8 +11,8 @@ from controller.motion.limits import Feeds, MotionLimits
 from parser.program import parse_program
 from sim.setup.machine.machine import load_machine
 from sim.table import follow
+from sim.table.history import QUANTITIES
 from sim.table.motion import Moved, motion_of
-from sim.table.record.history import QUANTITIES
 from sim.table.ticks import Ticks, choose_ticks, rhythm
 
 BEATS = rhythm(MODEL._replace(drive_damping_ratio=0.7))

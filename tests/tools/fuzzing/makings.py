@@ -16,7 +16,7 @@ from parser.findings.errors import DrycutError
 from sim.check.file_check import Job, check_file
 from sim.check.settings import CheckSettings
 from sim.make.cam.maker import MadeProgram, NotMade, unproved
-from sim.make.convert.wanted import Wanted
+from sim.make.wanted import Wanted
 from sim.setup.making import Making
 from sim.setup.scenario import Scenario
 from sim.show.refusals import why_refused

@@ -25,6 +25,7 @@ from sim.show.draw.legend import (
     stroke,
 )
 from sim.show.draw.style import Paint, paint_of_pass, tones_of
+from sim.show.pictures.cut.lines import off_entries
 from sim.show.pictures.cut.marks import (
     draw_end,
     draw_flag,
@@ -35,7 +36,6 @@ from sim.show.pictures.cut.marks import (
     pauses,
     places_um,
 )
-from sim.show.pictures.cut.off_drawing import off_entries
 from sim.show.pictures.cut.subject import Cut, draw_clamp, draw_work
 from sim.show.texts import Words
 

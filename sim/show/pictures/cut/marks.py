@@ -22,8 +22,7 @@ from parser.units import from_mm
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.flatten import along
-from sim.show.draw.labels import Anchors, number_stride, place_numbers
-from sim.show.draw.layout import Box, View, box_around
+from sim.show.draw.layout import Anchors, Box, View, box_around, number_stride, place_numbers
 from sim.show.draw.style import Paint
 from sim.show.pictures.cut.subject import Board
 from sim.show.texts import Words

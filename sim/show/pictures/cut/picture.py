@@ -14,8 +14,7 @@ from parser.units import mm
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.flatten import simplify
-from sim.show.draw.labels import Ink, Room
-from sim.show.draw.layout import BESIDE_PLOT, IN_PLOT, Box, Margins, Page, View, page_for
+from sim.show.draw.layout import BESIDE_PLOT, IN_PLOT, Box, Ink, Margins, Page, Room, View, page_for
 from sim.show.draw.legend import Entry, draw_axes, draw_frame, draw_header
 from sim.show.draw.sheet import AnyCanvas, Sheet
 from sim.show.draw.style import Paint
@@ -28,6 +27,7 @@ from sim.show.pictures.cut.lines import (
     draw_kerf,
     draw_labels,
     draw_lines,
+    draw_off,
     lines_of,
     path_bounds_um,
     shown_bounds_um,
@@ -41,7 +41,6 @@ from sim.show.pictures.cut.marks import (
     flag_reach,
     flags_of,
 )
-from sim.show.pictures.cut.off_drawing import draw_off
 from sim.show.pictures.cut.sizes import CutSizes, Extents, draw_extents, draw_rounds, extents_of, sizes_of_cut
 from sim.show.pictures.cut.subject import Board, Cut, clamps_on, draw_bodies, works_on
 from sim.show.texts import Words

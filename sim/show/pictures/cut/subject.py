@@ -17,8 +17,7 @@ from parser.toolpath import Toolpath
 from sim.setup.obstacles import Outline
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
-from sim.show.draw.labels import Room
-from sim.show.draw.layout import Box, Page
+from sim.show.draw.layout import Box, Page, Room
 from sim.show.draw.style import Paint
 from sim.show.texts import Words
 

@@ -15,8 +15,7 @@ from parser.units import mm
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.chart import AxisRange, Chart, columns_of, draw_band, draw_chart, draw_line, stretches, tick_texts
-from sim.show.draw.labels import number_stride
-from sim.show.draw.layout import Box
+from sim.show.draw.layout import Box, number_stride
 from sim.show.draw.legend import Entry, dashes, draw_at_foot, in_rows, stroke, swatch
 from sim.show.draw.sheet import AnyCanvas, Sheet
 from sim.show.draw.style import Paint

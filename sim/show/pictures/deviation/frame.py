@@ -11,7 +11,7 @@ from typing import Final
 import numpy as np
 
 from parser.geometry.curves import Bools, Floats
-from sim.measure.deviation.deviation import Where, across, across_um
+from sim.measure.deviation import Where, across, across_um
 from sim.run.dryrun import DryRun
 from sim.setup.part import DEFAULT_TOLERANCE_UM
 from sim.show.draw import style

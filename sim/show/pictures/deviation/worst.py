@@ -21,8 +21,7 @@ from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.chart import stretches
 from sim.show.draw.flatten import CHORD_PX, bounds_um, cut_runs, flatten, simplify
-from sim.show.draw.labels import Ink, Room
-from sim.show.draw.layout import Box, View, box_around, centred, nice_below, ticks
+from sim.show.draw.layout import Box, Ink, Room, View, box_around, centred, nice_below, ticks
 from sim.show.draw.legend import Entry, draw_at_foot, in_rows, stroke
 from sim.show.draw.sheet import AnyCanvas, Sheet
 from sim.show.draw.style import Paint

@@ -21,13 +21,11 @@ from sim.run.dryrun import DryRun
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.chart import AxisRange, Chart, range_of
-from sim.show.draw.labels import MOST_NUMBERS, number_stride
-from sim.show.draw.layout import Box
+from sim.show.draw.layout import MOST_NUMBERS, Box, number_stride
 from sim.show.draw.style import Paint, paint_of_pass
 from sim.show.texts import Words
-from sim.table.findings import Lost
-from sim.table.record.history import Envelope, History
-from sim.table.record.losses import LossKind, Quantity
+from sim.table.history import Envelope, History
+from sim.table.losses import LossKind, Lost, Quantity
 
 ROW: Final = 30.0
 """Height of a row of numbers or signs."""

@@ -18,8 +18,7 @@ from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.chart import AxisRange, Chart, draw_band, draw_chart, draw_level, draw_line
 from sim.show.draw.flatten import CHORD_PX, simplify
-from sim.show.draw.labels import number_stride
-from sim.show.draw.layout import Box
+from sim.show.draw.layout import Box, number_stride
 from sim.show.draw.legend import Entry, Legend, LegendSizes, draw_header, draw_legend, in_rows, middle
 from sim.show.draw.letters import Letters
 from sim.show.draw.sheet import AnyCanvas, Sheet
@@ -40,7 +39,7 @@ from sim.show.pictures.motion.panels import (
 )
 from sim.show.texts import Words
 from sim.show.texts.phrases import lasting, machine_name
-from sim.table.record.history import Envelope
+from sim.table.history import Envelope
 
 MEAN_WIDTH: Final = 2.4
 HATCH_WIDTH: Final = 1.2

@@ -19,7 +19,7 @@ from parser.drawing.model import LeftOut
 from parser.findings.catalogue import Remark
 from sim.make.cam.document import document, document_text
 from sim.make.cam.maker import MadeProgram, NotMade, made_program, unproved
-from sim.make.convert.wanted import Wanted
+from sim.make.wanted import Wanted
 from sim.setup.making import Making
 from sim.show.terminal.program import told_lines
 from sim.show.texts import Words

@@ -11,7 +11,7 @@ from parser.drawing.read import read_drawing
 from parser.write.draft import draft_of
 from sim.make.cam.maker import MadeProgram, fits_um, unproved
 from sim.make.cam.proof import ToProve, proved
-from sim.make.convert.wanted import Wanted
+from sim.make.wanted import Wanted
 from sim.setup.machine.machine import load_machine
 from sim.setup.making import Making
 from sim.setup.scenario import Scenario

@@ -13,7 +13,7 @@ from parser.write.iso import iso_choices
 from sim.check.path_checks import Demands, run_checks
 from sim.make.cam.document import figure_sums
 from sim.make.cam.maker import MadeProgram, NotMade, made_program, remarked, unproved
-from sim.make.convert.wanted import Wanted
+from sim.make.wanted import Wanted
 from sim.setup.making import LayerWish, Making
 
 TO_3B = Wanted("3b")

@@ -11,9 +11,9 @@ from parser.dialect.reader import Choices
 from parser.program import Program, load_program, parse_program
 from parser.write.iso import iso_choices
 from sim.check.path_checks import Demands, run_checks
-from sim.make.convert import convert as conversion
-from sim.make.convert.convert import Converted, Refused, converted
-from sim.make.convert.wanted import Language, Wanted
+from sim.make import convert as conversion
+from sim.make.convert import Converted, Refused, converted
+from sim.make.wanted import Language, Wanted
 
 OPEN = "B9000B0B9000GXL1\nB0B9000B9000GYL2\nB9000B0B9000GXL3\nB0B8000B8000GYL4\nDD\n"
 HOLE = "G92 X0 Y0\nG90\nG41 D0\nG01 X5000 Y0\nG03 X5000 Y0 I-5000 J0\nG40\nG01 X0 Y0\nM02\n"

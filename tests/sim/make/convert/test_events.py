@@ -8,8 +8,8 @@ from depth import cases
 
 from parser.program import parse_program
 from parser.write.iso import iso_choices
-from sim.make.convert.convert import Converted, converted
-from sim.make.convert.wanted import Language, Wanted
+from sim.make.convert import Converted, converted
+from sim.make.wanted import Language, Wanted
 
 SQUARE = "G90 G92 X0 Y0\nG01 X10. Y0. F3.\nG04 X2.\nG01 X10. Y20.\nM01\nG01 X0. Y20.\nE12\nG01 X0. Y0.\nM02\n"
 

@@ -7,8 +7,8 @@ from depth import cases
 from sound_4b import outline_4b
 
 from parser.program import parse_program
-from sim.make.convert.convert import Converted, converted
-from sim.make.convert.wanted import Language, Wanted
+from sim.make.convert import Converted, converted
+from sim.make.wanted import Language, Wanted
 from sim.run.prepare import as_run
 from sim.setup.part import SIDES, Offset, OffsetPass
 

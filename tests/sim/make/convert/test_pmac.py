@@ -16,8 +16,8 @@ from parser.geometry.curves import extents
 from parser.program import Program, load_program, parse_program
 from parser.write.pmac import Card, PmacChoices, Way, blocks_of_source
 from sim.check.path_checks import Demands, run_checks
-from sim.make.convert.convert import Converted, Refused, converted
-from sim.make.convert.wanted import Wanted
+from sim.make.convert import Converted, Refused, converted
+from sim.make.wanted import Wanted
 from sim.show.terminal.convert import converted_lines
 
 MM = Choices(dialect="common", unit="mm")

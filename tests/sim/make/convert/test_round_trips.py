@@ -13,8 +13,8 @@ from parser.geometry.curves import Bools
 from parser.program import Program, dialects, load_program
 from parser.toolpath import Toolpath
 from parser.write.iso import iso_choices
-from sim.make.convert.convert import Converted, converted
-from sim.make.convert.wanted import Wanted
+from sim.make.convert import Converted, converted
+from sim.make.wanted import Wanted
 
 _TIE_UM = 2.5
 _MOST_OTHER = 0.03

@@ -25,8 +25,7 @@ from PIL import Image
 from places import ROOT
 
 from parser.findings.errors import SettingsError
-from sim.serve.page.child import Child, begun
-from sim.serve.page.life import AWAY_S, FIRST_S, Life
+from sim.serve.page.child import AWAY_S, FIRST_S, Child, Life, begun
 from sim.serve.page.runner import _film
 from sim.serve.page.runs import KEYS, Runs, zipped
 from sim.serve.page.served import MOST_BYTES

@@ -14,9 +14,18 @@ from places import ROOT
 from parser.program import Program, parse_program, read_program
 from sim.check.file_check import check_program
 from sim.check.settings import CheckSettings
-from sim.teach.drill.drills import LEVELS, SEEN_FROM, Drill, DrillRequest, departure, drills_of, level_of, lines_of
-from sim.teach.drill.kinds import KINDS, groups_of
-from sim.teach.drill.sound import Sound
+from sim.teach.drills import (
+    LEVELS,
+    SEEN_FROM,
+    Drill,
+    DrillRequest,
+    departure,
+    drills_of,
+    level_of,
+    lines_of,
+)
+from sim.teach.kinds import KINDS, groups_of
+from sim.teach.sound import Sound
 
 SQUARE = "B0B1000B1000GYL2\nB1000B0B1000GXL1\nB0B1000B1000GYL4\nB1000B0B1000GXL3\nDD\n"
 FOUR_B = "B5000B0B5000B0GXL1\nB1000B0B4000B1000DGYNR1\nB5000B0B5000B0GXL3\nDD\n"

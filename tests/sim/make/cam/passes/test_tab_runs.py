@@ -10,7 +10,7 @@ from ezdxf.layouts import Modelspace
 from parser.shape.passes import find_passes
 from parser.toolpath import Point
 from sim.make.cam.maker import MadeProgram, made_program, unproved
-from sim.make.convert.wanted import Wanted
+from sim.make.wanted import Wanted
 from sim.setup.machine.machine import load_machine
 from sim.setup.making import Making
 from sim.setup.scenario import Scenario

@@ -11,8 +11,8 @@ from made_programs import plan_of, plate_file
 from parser.geometry.curves import CurveKind, Curves, Floats
 from parser.program import load_program, parse_program
 from sim.make.cam.compensated_draft import draft_of_plan
-from sim.make.convert.convert import proof
-from sim.make.convert.wanted import Wanted, encoded, written
+from sim.make.convert import proof
+from sim.make.wanted import Wanted, encoded, written
 from sim.setup.making import Making
 
 _HALF_UM = 20_000.0, 10_000.0

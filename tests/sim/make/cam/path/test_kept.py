@@ -15,7 +15,7 @@ from sim.check.path_checks import Demands, run_checks
 from sim.make.cam.compensated_draft import draft_of_plan
 from sim.make.cam.maker import MadeProgram, NotMade, unproved
 from sim.make.cam.proof import ToProve, proved
-from sim.make.convert.wanted import Wanted
+from sim.make.wanted import Wanted
 from sim.setup.making import Making
 
 _NEAR_UM = 2.0  # both are rounded to whole µm, and meet at corners

@@ -14,7 +14,13 @@ from parser.write.draft import Draft
 from parser.write.iso import iso_choices
 from sim.check.path_checks import Demands, run_checks
 from sim.make.cam.compensated_draft import draft_of_plan
-from sim.make.convert.wanted import Wanted, begun, draft_for, read_with, written
+from sim.make.wanted import (
+    Wanted,
+    begun,
+    draft_for,
+    read_with,
+    written,
+)
 from sim.setup.making import Making
 
 ISO = """\

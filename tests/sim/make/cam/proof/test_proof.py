@@ -15,7 +15,7 @@ from parser.write.iso import iso_choices
 from sim.make.cam.model import CutPlan, FigureCut
 from sim.make.cam.passes import figure_cut
 from sim.make.cam.target import Proof
-from sim.make.convert.wanted import Wanted
+from sim.make.wanted import Wanted
 from sim.setup.making import Making
 
 REACH = 100.0

@@ -22,7 +22,7 @@ from controller.stepping.pulses import Pulses
 from controller.stepping.steps import Steps
 from parser.geometry.curves import Bools, Floats, Ints
 from parser.toolpath import Toolpath
-from sim.measure.deviation.deviation import Deviation, DeviationMeter, Where, across_um, summed, where
+from sim.measure.deviation import Deviation, DeviationMeter, Where, across_um, summed, where
 from sim.table.motion import Motion
 from sim.table.trace import Trace
 

@@ -16,7 +16,7 @@ from parser.dialect.reader import Spelling
 from parser.program import Program
 from parser.step_words.words import SENSES
 from parser.text.source import Field, Span
-from sim.teach.drill.sound import Slip, Sound
+from sim.teach.sound import Slip, Sound
 
 Maker = Callable[[Random, Sound], Slip | None]
 """Makes a fault by chance; None where the place that chance chose has nothing to damage in this way."""

@@ -10,9 +10,9 @@ from typing import NamedTuple
 
 from controller.compiled.loops import compiled
 from parser.geometry.curves import Floats
-from sim.table.physics.drive import Drive, Kick, Kicked, Slide, kicked
-from sim.table.physics.rating import Rating, Strength, Train, Turn, rated, turned
-from sim.table.record.history import Limits, Record, Values, binned, peaked, sampled
+from sim.table.drive import Drive, Kick, Kicked, Slide, kicked
+from sim.table.history import Limits, Record, Values, binned, peaked, sampled
+from sim.table.rating import Rating, Strength, Train, Turn, rated, turned
 
 
 class Axis(NamedTuple):

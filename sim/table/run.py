@@ -15,12 +15,8 @@ import numpy as np
 
 from parser.controller_words import Axis as AxisName
 from parser.geometry.curves import Floats
-from sim.setup.machine.table_model import TableModel
-from sim.table.physics.drive import Bodies, drives_of, resting
-from sim.table.physics.rating import RATE_WINDOW_S, Rating, Train, Turn, rated, strength_of
-from sim.table.record.history import PEAKS, VALUES, Bins, Record, borders_s
-from sim.table.record.losses import Slip
-from sim.table.solve.axis import (
+from sim.setup.machine.machine import TableModel
+from sim.table.axis import (
     Axis,
     AxisDemand,
     Noted,
@@ -34,6 +30,10 @@ from sim.table.solve.axis import (
     recorded,
     waited,
 )
+from sim.table.drive import Bodies, drives_of, resting
+from sim.table.history import PEAKS, VALUES, Bins, Record, borders_s
+from sim.table.losses import Slip
+from sim.table.rating import RATE_WINDOW_S, Rating, Train, Turn, rated, strength_of
 from sim.table.ticks import Ticks
 
 Engine = Callable[[Axis, AxisDemand, State, Record], State]
@@ -143,7 +143,7 @@ def _record_of(ticks: Ticks, place_um: float) -> Record:
 
 
 class InBodies:
-    """An axis of a table of bodies: what `followed` of `sim.table.solve.axis` is to a compiled one."""
+    """An axis of a table of bodies: what `followed` of `sim.table.axis` is to a compiled one."""
 
     def __init__(self, bodies: Bodies, name: AxisName) -> None:
         self._bodies, self._name = bodies, name

@@ -18,7 +18,7 @@ from controller.compiled.loops import compiled
 from parser.geometry.curves import Floats, Ints
 from parser.toolpath import Point
 from sim.cut.pieces.pieces import Piece, Pieces
-from sim.cut.play.walls import SIMPLER_UM, Walls, room_of, walls_of
+from sim.cut.walls import SIMPLER_UM, Walls, room_of, walls_of
 
 
 class Sides(NamedTuple):

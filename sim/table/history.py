@@ -19,7 +19,7 @@ import numpy as np
 from controller.compiled.loops import compiled
 from parser.geometry.curves import Floats
 from sim.base.units import newtons
-from sim.table.physics.drive import Drive, Slide
+from sim.table.drive import Drive, Slide
 from sim.table.ticks import Ticks
 
 
@@ -166,7 +166,7 @@ LEAST_BINS: Final = 100
 SAMPLES_A_BIN: Final = 2
 """Samples of the trace in a bin, where a run has too few for `BINS`: between two samples the slide may only creep."""
 QUANTITIES: Final = ("velocity_um_s", "acceleration_um_s2", "lag_um", "following_error_um", "force_n")
-"""What is kept, in the order of `sim.table.record.history.Values`."""
+"""What is kept, in the order of `sim.table.history.Values`."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

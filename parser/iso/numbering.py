@@ -14,7 +14,7 @@ from parser.findings.findings import Edit, Finding, file_order
 from parser.geometry.curves import Bools, Floats, Ints
 from parser.iso.listing.listing import Form, Listing, Unread
 from parser.iso.profiles.profile import Profile
-from parser.iso.words.word_checks import word_findings
+from parser.iso.word_checks import word_findings
 
 ENDS = (2, 30, 99, 199)
 """M words behind which numbers may begin anew: what follows is a subprogram."""

@@ -15,8 +15,8 @@ from parser.dialect.reader import Assumption, Choices, ChosenDialect
 from parser.findings.codes import Severity
 from parser.findings.findings import Finding, ReadAs
 from parser.geometry.curves import extents
-from parser.iso.families.marks import DIGITS_IN_MM, MarksSeen, mark_of
 from parser.iso.listing.listing import Listing
+from parser.iso.marks import DIGITS_IN_MM, MarksSeen, mark_of
 from parser.iso.path.arcs import Agreement
 from parser.iso.path.motion import Moved
 from parser.iso.profiles.profile import Profile, profile

@@ -27,7 +27,7 @@ from parser.write.draft import OF_THE_FAMILY, Draft, Event, Written, events_of
 from parser.write.losses import CarriedOver, Loss, lost_words, some
 from sim.check.closures import OpenContour
 from sim.check.path_checks import Checked, Demands, run_checks
-from sim.make.convert.wanted import Wanted, carried_events, draft_for, read_with, written
+from sim.make.wanted import Wanted, carried_events, draft_for, read_with, written
 
 _SHARES = (0.25, 0.5, 0.75)
 _OFFSET_UM = 0.1

@@ -12,8 +12,8 @@ from controller.compiled.loops import compiled
 from controller.stepping.pulses import Pulses
 from parser.geometry.curves import Floats
 from sim.base.units import engine_force
-from sim.setup.machine.table_model import Motor
-from sim.table.physics.drive import Drive
+from sim.setup.machine.machine import Motor
+from sim.table.drive import Drive
 
 
 class Train(NamedTuple):

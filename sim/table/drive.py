@@ -22,7 +22,7 @@ from controller.compiled.loops import compiled
 from parser.controller_words import Axis
 from parser.geometry.curves import Floats
 from sim.base.units import engine_force, engine_stiffness, engine_viscosity
-from sim.setup.machine.table_model import TableModel
+from sim.setup.machine.machine import TableModel
 
 
 class Slide(NamedTuple):

@@ -1,1 +1,0 @@
-"""Which family a listing was written for, in which scale and modes, and why: `ToldProfile`, its assumptions."""

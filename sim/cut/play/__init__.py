@@ -1,1 +1,0 @@
-"""How far a free piece can move before it touches; the border type is `Play`."""

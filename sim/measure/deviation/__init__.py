@@ -1,1 +1,0 @@
-"""Places across the ideal path, of steps, table and wire, and what sums them up; the border type is `Deviations`."""
