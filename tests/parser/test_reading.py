@@ -21,7 +21,7 @@ from parser.files import (
 )
 from parser.findings.errors import DrycutError, FileUnreadableError, SettingsError
 
-ROOT = Path(__file__).parents[3]
+ROOT = Path(__file__).parents[2]
 SHIPPED = {
     *("parser/findings/catalogue.py", "sim/show/texts/texts.py", "sim/setup/key_words.py", "sim/setup/key_tables.py"),
     *("sim/show/html/environment.py", "sim/show/findings/catalogue_document.py", "sim/show/terminal/markdown.py"),
