@@ -16,12 +16,26 @@ settings.load_profile("steady")
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Leave what takes long to ``make deep``: promises of size and time, and deaths of processes."""
-    if DEEP:
+    """Leave to ``make deep`` what takes long: promises of size and time, deaths of processes, most of what is alike."""
+    if DEEP or any("::" in name for name in config.args):
         return
-    long = [item for item in items if item.get_closest_marker("deeper")]
-    config.hook.pytest_deselected(items=long)
-    items[:] = [item for item in items if item not in long]
+    long = {id(item) for item in items if item.get_closest_marker("deeper")} | _more_of_a_kind(items)
+    config.hook.pytest_deselected(items=[item for item in items if id(item) in long])
+    items[:] = [item for item in items if id(item) not in long]
+
+
+def _more_of_a_kind(items: list[pytest.Item]) -> set[int]:
+    """Cases beyond those that the suite tries of tests whose cases are alike, by the places of their items."""
+    cases: dict[str, list[pytest.Item]] = {}
+    for item in items:
+        if item.get_closest_marker("alike"):
+            cases.setdefault(item.nodeid.partition("[")[0], []).append(item)
+    more = set()
+    for alike in cases.values():
+        (most,) = next(alike[0].iter_markers("alike")).args
+        tried = {round(at * (len(alike) - 1) / max(most - 1, 1)) for at in range(most)}
+        more |= {id(item) for at, item in enumerate(alike) if at not in tried}
+    return more
 
 
 def pytest_collection_finish() -> None:

@@ -97,6 +97,7 @@ def random_run(seed: int) -> Seen:
     return seen
 
 
+@pytest.mark.alike(4)
 @pytest.mark.parametrize("seed", range(12))
 def test_it_is_where_the_card_says_at_any_time(seed: int) -> None:
     way = held(random_run(seed))

@@ -78,6 +78,7 @@ def test_stepped_pulses_are_those_of_the_plan(capacity: int) -> None:
     assert pulses.t_s == pytest.approx(wanted.t_s, abs=1e-6)  # s
 
 
+@pytest.mark.alike(2)
 @pytest.mark.parametrize("rule", [Through(), StopEach(), JunctionDeviation(0.1)])
 @pytest.mark.parametrize("interpolation", ["point-by-point", "card"])
 @settings(max_examples=15, deadline=None)
@@ -110,6 +111,7 @@ def circle_of_chords(chords: int) -> str:
     return " ".join(f"B{w.x_um}B{w.y_um}B{w.count_um}G{w.count_axis.name}L{w.quadrant}" for w in words)
 
 
+@pytest.mark.alike(3)
 @pytest.mark.parametrize(
     "limits",
     [

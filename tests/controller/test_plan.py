@@ -84,6 +84,7 @@ def test_a_program_without_motion_takes_no_time() -> None:
     assert plan_of("B5B5B0GXL1").duration_s == 0.0
 
 
+@pytest.mark.alike(2)
 @pytest.mark.parametrize("jerk", [math.inf, 1e5])
 @pytest.mark.parametrize("seed", range(0, 600, 200))
 def test_every_plan_of_a_toolpath_is_lawful_on_each_axis(seed: int, jerk: float) -> None:
@@ -146,6 +147,7 @@ def test_a_path_run_backwards_takes_the_same_time(jerk: float) -> None:
         assert back.duration_s == pytest.approx(there.duration_s, rel=1e-7)  # a smooth joint is one to 1e-8 rad
 
 
+@pytest.mark.alike(2)
 @pytest.mark.parametrize("jerk", [math.inf, 1e5])
 @pytest.mark.parametrize(("length", "time"), [(8.0, 1.0), (1.0, 4.0), (0.25, 0.5)])
 def test_time_scales_as_the_units_say(length: float, time: float, jerk: float) -> None:

@@ -156,6 +156,7 @@ def test_rows_run_backwards_take_the_same_time(jerk: float) -> None:
         assert back.duration_s == pytest.approx(there.duration_s, rel=1e-9)
 
 
+@pytest.mark.alike(2)
 @pytest.mark.parametrize("jerk", [math.inf, 1e4])
 @pytest.mark.parametrize(("length", "time"), [(7.0, 1.0), (1.0, 3.0), (1e-3, 0.3)])
 def test_time_scales_as_the_units_say(length: float, time: float, jerk: float) -> None:
@@ -231,6 +232,7 @@ def test_every_wait_begins_where_its_row_ends(jerk: float) -> None:
         assert plan.at(plan.time_at(before)[wait > 0.0] + 0.125).speed_um_s.max(initial=0.0) == 0.0
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize("loosened", [1.001, 1.02, 1.2])
 def test_under_a_jerk_limit_a_row_that_may_accelerate_more_makes_no_plan_slower(loosened: float) -> None:
     for seed in range(150):

@@ -103,6 +103,7 @@ def random_case(rng: random.Random) -> tuple[Shape, float, bool]:
     return shape, f, rng.random() < 0.7
 
 
+@pytest.mark.alike(2)
 @pytest.mark.parametrize("seed", range(8))
 def test_the_loops_are_those_of_shapely_from_fine_chords(seed: int) -> None:
     rng = random.Random(seed)
@@ -272,6 +273,7 @@ def split(contour: Curves, parts: int) -> Curves:
     return pen.path().picked(slice(None))
 
 
+@pytest.mark.alike(2)
 @pytest.mark.parametrize("side", list(Side))
 @pytest.mark.parametrize("f", [10.0, 100.0, 130.0])
 def test_lines_in_collinear_parts_and_in_blocks_of_a_micrometre(f: float, side: Side) -> None:

@@ -57,6 +57,7 @@ def test_each_stretch_takes_the_time_that_ruckig_finds(jerk: float) -> None:
         assert time == pytest.approx(ruckig_time(one_row(length, speed, a, first, last), jerk), rel=1e-9)
 
 
+@pytest.mark.alike(2)
 @pytest.mark.parametrize("jerk", [1e2, 1e4, 1e6, 1e9])
 def test_every_plan_under_a_jerk_limit_is_lawful(jerk: float) -> None:
     for seed in range(250):

@@ -145,6 +145,7 @@ def test_every_recipe_is_run_here() -> None:
     ]
 
 
+@pytest.mark.alike(3)
 @pytest.mark.parametrize(
     ("name", "is_sound"), [("shell", True), ("gitlab", True), *((name, False) for name in RECIPES)]
 )

@@ -452,6 +452,7 @@ def test_a_kerf_drawn_bit_by_bit_is_the_kerf_drawn_at_once(open_page: OpenPage) 
     assert different.mean() < 2e-4  # edges that are smoothed twice are a little darker
 
 
+@pytest.mark.alike(2)
 @pytest.mark.parametrize(("motion", "speed"), [("no-preference", 1000), ("no-preference", 10000), ("reduce", 1000)])
 def test_a_piece_that_is_free_drops_and_leaves_a_hole(open_page: OpenPage, motion: str, speed: int) -> None:
     page = opened(open_page, reduced_motion=motion)

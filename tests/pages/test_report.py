@@ -328,6 +328,7 @@ def grid(holes: int) -> str:
     )
 
 
+@pytest.mark.alike(2)
 @pytest.mark.parametrize("holes", [1, 12, 40])
 def test_the_job_sheet_is_one_sheet_with_all_that_stands_on_it(open_page: OpenPage, holes: int) -> None:
     page = open_page(made(grid(holes), kerf=True).html, int((210 - 24) * MM_PX), 1000).page

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 GOOD = "<!doctype html><html lang='en'><meta charset='utf-8'><title>page</title><p>零件 text</p>"
 
 
+@pytest.mark.alike(3)
 @pytest.mark.parametrize(
     ("bad", "problem"),
     [
@@ -189,6 +190,7 @@ def blank(browsers: Browsers, tmp_path_factory: pytest.TempPathFactory) -> Itera
     pages.close()
 
 
+@pytest.mark.alike(8)
 @pytest.mark.parametrize(
     ("check", "bad", "complaint"),
     [

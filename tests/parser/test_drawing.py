@@ -137,6 +137,7 @@ def test_an_ellipse_that_is_a_circle_is_an_arc(tmp_path):
     np.testing.assert_allclose(drawing.curves.end_um, [[1000, 8000]], atol=EXACT_UM)
 
 
+@pytest.mark.alike(9)
 @pytest.mark.parametrize("tolerance_um", [0.02, 0.1, 5.0])
 @pytest.mark.parametrize("seed", range(12))
 def test_a_spline_is_flattened_within_the_tolerance(tmp_path, seed, tolerance_um):
@@ -188,6 +189,7 @@ def test_a_spline_with_loose_knots_runs_only_where_it_is_defined(tmp_path):
 # Versions, units, blocks, mirrors
 
 
+@pytest.mark.alike(5)
 @pytest.mark.parametrize("fmt", ["asc", "bin"])
 @pytest.mark.parametrize("version", VERSIONS)
 def test_every_version_gives_the_same_curves(tmp_path, version, fmt):
@@ -302,6 +304,7 @@ def _inserted(attributes: dict[str, float]) -> ezdxf.document.Drawing:
     return document
 
 
+@pytest.mark.alike(4)
 @pytest.mark.parametrize(
     "attributes",
     [

@@ -117,6 +117,7 @@ def stepped_off_um(path: Curves, words: Chained) -> Floats:
     return off
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize(("arcs", "most_um"), [(50, 2.5), (200, 4.5), (1000, 6.0)])
 def test_what_steps_are_off_does_not_add_up_over_arcs(arcs: int, most_um: float) -> None:
     """Told without a look at the steps, they end up to 6, 19 and 81 µm beside their words."""

@@ -52,6 +52,7 @@ def test_home_and_index_of_three_axes(library: Made, tmp_path: Path) -> None:
     repeated(ran)
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize(("capacity", "refuses"), [(4096, False), (32, True), (16, True)])
 def test_stream_into_a_list_of_any_length(library: Made, tmp_path: Path, capacity: int, refuses: bool) -> None:
     ran = library.run(library.client("stream"), tmp_path, card=f"capacity = {capacity}")

@@ -21,6 +21,7 @@ int main(void)
 FAILED = "-1 -1 -1 -1 | 0 0 0 7 0"
 
 
+@pytest.mark.alike(3)
 @pytest.mark.parametrize(
     ("asked", "says"),
     [

@@ -29,6 +29,7 @@ def star(seed: int) -> Curves:
     return curves_between(start, end, center, sweep)
 
 
+@pytest.mark.alike(5)
 @pytest.mark.parametrize("seed", range(20))
 def test_places_are_inside_where_a_fine_polygon_holds_them(seed: int) -> None:
     contour = star(seed)

@@ -263,6 +263,7 @@ def convex(rng: np.random.Generator, number: int) -> list[Place]:
     return [(round(10000.0 * math.cos(a)), round(10000.0 * math.sin(a))) for a in angle]
 
 
+@pytest.mark.alike(8)
 @pytest.mark.parametrize("seed", range(30))
 def test_random_convex_outlines_are_silent_inside_and_outside_either_way_round(seed: int) -> None:
     rng = np.random.default_rng(seed)

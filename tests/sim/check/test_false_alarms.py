@@ -9,6 +9,7 @@ from sound import checks, off_um, sound_program
 PROGRAMS, PARTS = len(cases(60, 3600)), 6
 
 
+@pytest.mark.alike(2)
 @pytest.mark.deep
 @pytest.mark.parametrize("part", range(PARTS))
 def test_sound_programs_have_no_findings(part: int) -> None:

@@ -29,6 +29,7 @@ def fixed(path: Path, data: bytes) -> tuple[bytes, str]:
     return path.read_bytes(), err
 
 
+@pytest.mark.alike(6)
 @pytest.mark.parametrize(
     ("right", "wrong"),
     [

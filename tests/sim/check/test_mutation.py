@@ -28,8 +28,12 @@ AT_THE_BLOCK = {
 ANYWHERE = {"block deleted": (0.45, 0.7), "block doubled": (0.5, 0.95)}
 """Kind -> least share that is named at all."""
 _PROGRAMS = 120
-_MUTANTS = len(cases(20, 40))
-_RARELY_MOVED = {"D lost": 120, "quadrant": 40, "NR for SR": 40}  # most have no D, and few these words
+_MUTANTS = len(cases(12, 40))
+_RARELY_MOVED = {
+    "D lost": 120,
+    "quadrant": len(cases(24, 40)),
+    "NR for SR": len(cases(24, 40)),
+}  # most have no D, and few these words
 
 
 @cache

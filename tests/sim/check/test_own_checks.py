@@ -91,6 +91,7 @@ def test_every_format_has_its_findings(shop: Path, form: str) -> None:
         jsonschema.Draft202012Validator(schema).validate(json.loads(out))
 
 
+@pytest.mark.alike(4)
 @pytest.mark.parametrize(
     ("name", "said"),
     [

@@ -60,6 +60,7 @@ def texts() -> list[str]:
     return [rough_and_trim(rng).text for _ in range(2)] + [written(rng, style).text for style in STYLES[:3]]
 
 
+@pytest.mark.alike(12)
 @pytest.mark.parametrize("name", PLAIN)
 def test_a_fault_is_the_same_fault_whichever_way_the_part_lies(name: str) -> None:
     text = (CORPUS / "faults" / name).read_text(encoding="utf-8")
@@ -73,6 +74,7 @@ FIRST = "B9900B0B9900GXL1\nB9900B0B39600GYNR1\nB9900B0B9900GXL3\nD\nB0B900000B90
 """A sound hole far off, and the jump away from it: four blocks."""
 
 
+@pytest.mark.alike(8)
 @pytest.mark.parametrize("name", [name for name in PLAIN if name.endswith(".3b") and "count" not in name])
 def test_a_fault_is_the_same_fault_behind_a_sound_figure(name: str) -> None:
     text = (CORPUS / "faults" / name).read_text(encoding="utf-8")

@@ -79,6 +79,7 @@ def test_a_sharp_inner_corner_is_rounded_by_the_wire(tmp_path: Path, make: objec
     assert max(place.deviation_um for place in near) > 40.0
 
 
+@pytest.mark.alike(4)
 @pytest.mark.parametrize("seed", range(13))
 def test_random_contours_are_their_drawings(tmp_path: Path, seed: int) -> None:
     rng = random.Random(seed)

@@ -67,6 +67,7 @@ def test_a_picture_that_there_is_not_changes_nothing(part: Path) -> None:
     assert sorted(part.parent.iterdir()) == sorted([old, part])
 
 
+@pytest.mark.alike(2)
 @pytest.mark.parametrize(
     ("size", "width_px"), [("thumbnail", 320), ("screen", 1600), ("A4", 3508), ("a3", 4961), ("777", 777)]
 )

@@ -50,6 +50,7 @@ def shop(tmp_path: Path) -> Path:
     return tmp_path
 
 
+@pytest.mark.alike(5)
 @pytest.mark.parametrize(
     ("code", "arguments"),
     [
@@ -70,6 +71,7 @@ def test_the_core_needs_no_extra(shop: Path, code: int, arguments: tuple[str, ..
     assert (done[0], done[2].count("error:")) == (code, 0), done[2]
 
 
+@pytest.mark.alike(3)
 @pytest.mark.parametrize(
     ("extra", "arguments"),
     [

@@ -43,6 +43,7 @@ def frames_of(path: Path) -> tuple[list[np.ndarray], int]:
     return frames, taken_ms
 
 
+@pytest.mark.alike(2)
 @pytest.mark.parametrize("suffix", ANIMATED)
 def test_an_animated_picture_plays_back(part: Path, tmp_path: Path, suffix: str) -> None:
     file = tmp_path / f"cut{suffix}"
@@ -68,6 +69,7 @@ def test_an_mp4_plays_back(part: Path, tmp_path: Path) -> None:
     assert np.abs(frames[-1].astype(int) - frames[0]).max() > 60
 
 
+@pytest.mark.alike(2)
 @pytest.mark.parametrize("suffix", [*ANIMATED, ".mp4"])
 def test_the_same_film_is_the_same_bytes(part: Path, tmp_path: Path, suffix: str) -> None:
     one, other = (tmp_path / name / f"cut{suffix}" for name in ("a", "b"))

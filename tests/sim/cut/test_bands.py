@@ -30,6 +30,7 @@ def way(rng: np.random.Generator, length_um: float, across_um: float) -> Floats:
     return np.stack([along, across], axis=1) @ turn + rng.uniform(-1e5, 1e5, 2)
 
 
+@pytest.mark.alike(3)
 @pytest.mark.parametrize("seed", range(12))
 def test_a_band_is_the_union_of_its_discs(seed: int) -> None:
     rng = np.random.default_rng(seed)

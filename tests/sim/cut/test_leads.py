@@ -11,6 +11,7 @@ from sim.cut.pieces.pieces import pieces_of
 PROGRAMS = Path(__file__).parent / "leads"
 
 
+@pytest.mark.alike(2)
 @pytest.mark.parametrize(
     ("name", "offset_um", "parts", "slugs"),
     [

@@ -69,6 +69,7 @@ def loops(seed: int) -> Toolpath:
     return pen.path()
 
 
+@pytest.mark.alike(2)
 @pytest.mark.parametrize("seed", range(6))
 def test_parts_alone_in_a_hole_come_free_when_a_larger_box_would_tell_that_they_do(seed, monkeypatch):
     kerf = kerf_along(loops(seed))

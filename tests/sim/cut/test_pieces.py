@@ -223,6 +223,7 @@ def drawn(shape, start) -> Toolpath:
     return pen.path()
 
 
+@pytest.mark.alike(4)
 @pytest.mark.parametrize("family", SHAPES, ids=lambda family: family.__name__)
 def test_pieces_of_any_contour_are_what_a_fine_buffer_leaves(family):
     rng = random.Random(family.__name__)

@@ -38,6 +38,7 @@ def is_early(figure: Figure) -> bool:
     return figure.kind == "punch" and not figure.tab_um and stock > COUNTED_UM
 
 
+@pytest.mark.alike(2)
 @pytest.mark.parametrize("seed", [2, 6, 8, 14, 20, 25])
 def test_what_is_left_is_what_the_last_passes_leave_of_the_drawing(seed):
     made = rough_and_trim(random.Random(seed), most_um=3000.0)

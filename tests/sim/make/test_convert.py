@@ -61,6 +61,7 @@ def lost(made: Converted) -> dict[str, int]:
     return {loss.what: loss.number for loss in made.lost}
 
 
+@pytest.mark.alike(3)
 @pytest.mark.parametrize("wanted", [TO_3B, TO_4B, to_iso("robofil"), to_iso("sodick")])
 @pytest.mark.parametrize("text", [TWIN_ISO, TWIN_3B])
 def test_a_sound_program_is_written_within_its_bound(text: str, wanted: Wanted) -> None:

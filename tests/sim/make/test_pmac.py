@@ -96,6 +96,7 @@ def test_a_program_with_errors_is_not_converted() -> None:
     assert isinstance(converted(program, wanted(program)), Refused)
 
 
+@pytest.mark.alike(4)
 @pytest.mark.parametrize("way", ["native", "gcode"])
 @pytest.mark.parametrize("seed", range(5))
 def test_random_iso_comes_back_within_a_micrometre(seed: int, way: Way) -> None:
@@ -113,6 +114,7 @@ def test_random_iso_comes_back_within_a_micrometre(seed: int, way: Way) -> None:
     assert np.abs(done.program.toolpath.length_um - source.length_um).max() <= 1.0
 
 
+@pytest.mark.alike(4)
 @pytest.mark.parametrize("way", ["native", "gcode"])
 @pytest.mark.parametrize("seed", range(200, 206))
 def test_random_3b_comes_back_within_a_micrometre_and_in_its_box(seed: int, way: Way) -> None:

@@ -290,6 +290,7 @@ def test_without_lag_the_wire_is_the_table() -> None:
     assert run.trace.wire_um is run.trace.table_um
 
 
+@pytest.mark.alike(4)
 @pytest.mark.parametrize("lag", [0.0, 35.0])
 @pytest.mark.parametrize("interpolator", ["point-by-point", "card"])
 @pytest.mark.parametrize(

@@ -7,6 +7,7 @@ import shapely
 from sim.measure.compare.rings import coarser
 
 
+@pytest.mark.alike(3)
 @pytest.mark.parametrize("seed", range(8))
 def test_no_corner_that_is_left_out_lies_farther_off_than_asked(seed: int) -> None:
     rng = np.random.default_rng(seed)

@@ -233,6 +233,7 @@ def test_a_hole_that_nobody_cut_is_a_deviation_of_the_drawing_alone() -> None:
     assert worst_places(found)[0].measured_from == "drawing"
 
 
+@pytest.mark.alike(3)
 @pytest.mark.parametrize("scale", [25.4, 1 / 25.4, 1000.0, 1e-3, 10.0, 0.1, 2.54, 1 / 2.54])
 def test_a_slip_of_units_is_named_and_not_fitted_away(scale: float) -> None:
     small = [(x * scale, y * scale) for x, y in ((0, 0), (30_000, 0), (30_000, 8000), (9000, 25_000))]

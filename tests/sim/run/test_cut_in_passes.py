@@ -76,6 +76,7 @@ def farthest_um(one: Curves, other: Curves) -> float:
     return max(float(np.nanmax(np.abs(a - b), initial=0.0)) for a, b in columns)
 
 
+@pytest.mark.alike(3)
 @pytest.mark.parametrize("seed", range(10))
 def test_a_pass_runs_as_it_would_alone_and_back_as_its_reverse(seed: int) -> None:
     """A pass begins where the one before it ended, some µm from where the first began."""

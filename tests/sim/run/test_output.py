@@ -110,6 +110,7 @@ def test_a_damaged_trace_is_told_as_such_or_read_whole(tmp_path: Path) -> None:
     assert min(outcomes.values()) > 0
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize("name", ["t_s", "block", "step_t_s", "step_x_um"])
 def test_a_trace_with_an_array_of_another_kind_is_none(tmp_path: Path, name: str) -> None:
     run_into(tmp_path, parse_program(TEXT), plain_scenario(), silent, trace=True)

@@ -342,6 +342,7 @@ def labels(canvas: Recorder, plot: Box) -> list[Box]:
     return inside + [one.at for one in canvas.of("box") if one.more[0] is Paint.PAGE]
 
 
+@pytest.mark.alike(4)
 @pytest.mark.parametrize("width_px", [600, 1600])
 @pytest.mark.parametrize("seed", range(8))
 def test_no_label_covers_another(seed: int, width_px: int) -> None:

@@ -562,6 +562,7 @@ def test_golden(name: str) -> None:
     assert_golden(picture, f"{name}.png")
 
 
+@pytest.mark.alike(5)
 @pytest.mark.parametrize("name", ALL)
 @pytest.mark.parametrize(
     "text",

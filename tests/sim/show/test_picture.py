@@ -187,6 +187,7 @@ def test_start_and_end_show_in_one_place() -> None:
     assert extent(end, 0)[0] < extent(start, 0)[0]
 
 
+@pytest.mark.alike(4)
 @pytest.mark.parametrize("seed", range(20))
 def test_block_numbers_never_overlap(seed: int) -> None:
     rng = np.random.default_rng(seed)

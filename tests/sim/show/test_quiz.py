@@ -348,6 +348,7 @@ def test_the_quiz_shown_can_be_read(tmp_path: Path) -> None:
 PROGRAMS = ["keyhole", "die", "plate", "iso-die", "rough-and-trim", "punch", "servo-trip"]
 
 
+@pytest.mark.alike(3)
 @pytest.mark.parametrize("name", PROGRAMS)
 def test_any_program_has_sets_of_questions_of_many_kinds(name: str) -> None:
     recording = scenario_recording(name)

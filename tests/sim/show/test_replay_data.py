@@ -453,6 +453,7 @@ def test_the_deviation_of_the_wire_is_that_of_the_report(empty: "Page", lag_um: 
     assert recording.run.deviations.wire.max_um > 1.0
 
 
+@pytest.mark.alike(2)
 @pytest.mark.parametrize("name", ["wire-lag-corner", "wire-lag-arc", "backlash", "friction", "servo-trip"])
 def test_no_moment_of_a_replay_deviates_more_than_the_report(empty: "Page", name: str) -> None:
     recording = scenario_recording(name)

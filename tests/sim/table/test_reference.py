@@ -87,6 +87,7 @@ def test_random_tables_move_as_in_pymunk_and_lose_and_trip_in_the_same_tick() ->
     assert kinds == {"lost-steps", "trip"}
 
 
+@pytest.mark.alike(2)
 @pytest.mark.parametrize(
     ("name", "feed_um_s"),
     [("dk7732", 180.0), ("dk7740", 43.75), ("dk7750", 500.0), ("servo-400x500", 10_000.0)],

@@ -47,6 +47,7 @@ def drills(name: str, number: int = 1, count: int = 12) -> tuple[Drill, ...]:
 NAMES = ("die", "iso-die", "keyhole", "rough-and-trim")
 
 
+@pytest.mark.alike(2)
 @pytest.mark.parametrize("name", NAMES)
 def test_a_drill_differs_from_its_program_in_the_lines_that_it_tells_alone(name: str) -> None:
     before = of_scenario(name).text.splitlines()
@@ -129,6 +130,7 @@ def test_a_program_with_little_to_damage_gives_the_few_drills_that_there_are() -
     assert len({drill.program.text for drill in made}) == len(made)
 
 
+@pytest.mark.alike(9)
 @pytest.mark.parametrize("name", KINDS)
 def test_every_kind_of_fault_can_be_made(name: str) -> None:
     chance = random.Random(name)
@@ -144,6 +146,7 @@ def test_every_kind_of_fault_can_be_made(name: str) -> None:
     assert made > 0
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
 def test_damaged_programs_keep_the_ends_of_their_lines(end: str) -> None:
     program = parse_program(SQUARE.replace("\n", end))

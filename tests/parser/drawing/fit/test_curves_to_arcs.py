@@ -93,6 +93,7 @@ def _of_ellipse(tolerance_um: float) -> Fitted:
     return fitted
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize(("tolerance_um", "arcs"), [(1.0, 32), (2.0, 24), (5.0, 18)])
 def test_an_ellipse_takes_as_many_arcs_as_nodes_on_it_allow(tolerance_um: float, arcs: int) -> None:
     fitted = _of_ellipse(tolerance_um)

@@ -101,6 +101,7 @@ def _counts(fitted: Fitted) -> tuple[int, int]:
     return int(fitted.curves.is_arc.sum()), int((~fitted.curves.is_arc).sum())
 
 
+@pytest.mark.alike(6)
 @pytest.mark.parametrize("tolerance_um", [0.5, 5.0])
 @pytest.mark.parametrize("seed", range(12))
 def test_what_is_fitted_lies_within_its_bound_of_what_is_drawn_and_the_bound_within_the_tolerance(seed, tolerance_um):

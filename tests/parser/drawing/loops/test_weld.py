@@ -69,6 +69,7 @@ def left_by_a_wire(path: Path, text: str, side: int) -> list[float]:
     return sorted(one.depth_um for one in found.unreachable)
 
 
+@pytest.mark.alike(2)
 @pytest.mark.parametrize("side", [1, -1])
 @pytest.mark.parametrize("shift_mm", [0.0, 1e-9, 1e6])
 def test_what_a_wire_leaves_of_a_contour_is_the_same_however_it_is_drawn(

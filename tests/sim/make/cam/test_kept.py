@@ -30,6 +30,7 @@ def made(path: Path, making: Making, dialect: str = "skd2") -> MadeProgram | Not
     return unproved(path, making, Wanted("iso", iso_choices(dialect), keeps=True), plain_scenario())
 
 
+@pytest.mark.alike(4)
 @pytest.mark.parametrize("dialect", ["fast-wire", "skd2", "robofil", "sodick", "mitsubishi", "fanuc"])
 @pytest.mark.parametrize("passes_um", [(100.0,), (150.0, 120.0, 100.0)])
 def test_the_controller_makes_the_path_of_the_plan(path: Path, dialect: str, passes_um: tuple[float, ...]) -> None:

@@ -86,6 +86,7 @@ def test_an_order_that_cuts_out_what_has_still_to_be_cut_within_is_refused() -> 
     assert dict(caught.value.refusal.values) == {"number": "3", "around": "2"}
 
 
+@pytest.mark.alike(5)
 @pytest.mark.parametrize("seed", range(20))
 def test_in_nested_squares_at_random_nothing_is_cut_before_what_lies_within(seed: int) -> None:
     rng = random.Random(seed)

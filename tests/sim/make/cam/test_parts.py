@@ -50,6 +50,7 @@ def _places(refusal: Refusal) -> list[tuple[float, float]]:
 # Every drawing
 
 
+@pytest.mark.alike(6)
 @pytest.mark.parametrize("seed", range(25))
 def test_random_nested_drawings_come_out_as_the_parts_that_they_were_made_of(seed):
     rng = random.Random(seed)

@@ -55,6 +55,7 @@ def test_beyond_the_travel_nothing_else_speaks_against_a_program(path: Path) -> 
     assert proof.verdict == "fail"
 
 
+@pytest.mark.alike(2)
 def test_a_sound_program_is_proved_and_nothing_speaks_against_it(sound: tuple[Wanted, Proof]) -> None:
     wanted, proof = sound
     assert proof.verdict == "pass"
@@ -151,6 +152,7 @@ def test_a_wire_on_the_wrong_side_is_found(path: Path) -> None:
     assert {fault.figure for fault in proof.faults} == {number}
 
 
+@pytest.mark.alike(2)
 @pytest.mark.parametrize("by_um", [70.0, 97.0, 103.0, 130.0])
 def test_a_path_at_another_offset_is_found(path: Path, by_um: float) -> None:
     plan = plan_of(path)

@@ -136,6 +136,7 @@ def test_chosen_thread_points_lie_in_the_waste_with_a_free_lead_from_there(seed:
         assert thread.lead == making.lead if one.runs_inside else thread.lead == "perpendicular"
 
 
+@pytest.mark.alike(6)
 @pytest.mark.parametrize("seed", range(25))
 def test_any_thread_point_asked_for_gets_a_free_lead_or_is_refused_by_name(seed: int) -> None:
     rng = random.Random(seed)
