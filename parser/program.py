@@ -18,7 +18,7 @@ from parser.iso.profiles.profile import own_dialect_schema as own_dialect_schema
 from parser.iso.profiles.profile import own_dialect_text as own_dialect_text  # noqa: PLC0414 - handed on
 from parser.pmac.dialect import PMAC
 from parser.text.encoding import decode_text, narrow, no_program, printable
-from parser.text.lines import LineIndex
+from parser.text.source import LineIndex
 from parser.threeb.dialect import THREE_B
 from parser.toolpath import Toolpath
 

@@ -11,8 +11,8 @@ from controller.card.core.call import LIST_FULL, Code, CrdSts
 from controller.card.core.settings import UM_S_PER_PULSE_MS, CardSettings
 from controller.card.ge import GECard
 from controller.host.entries import Drive, blocks_told, entries_of, shapes_told
-from controller.stepping.point_by_point import words_of
 from controller.stepping.pulses import Pulses
+from controller.stepping.steps import words_of
 from parser.findings.errors import ControllerError
 
 AXES = (1, 2)  # X and Y

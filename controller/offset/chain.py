@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from controller.offset.joints import Joining, joints
 from controller.offset.passes import PassedPath
 from controller.offset.shifted import NOTHING_UM, Blocks, OffsetSection, turned_rad
-from controller.stepping.point_by_point import stepped_words
+from controller.stepping.steps import stepped_words
 from parser.controller_words import Outer
 from parser.geometry.curves import Curves, Floats, Ints, curves_between, joined
 from parser.geometry.near import distinct

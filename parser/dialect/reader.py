@@ -21,8 +21,7 @@ from parser.findings.catalogue import Language, term
 from parser.findings.codes import Check
 from parser.findings.findings import Finding, Value
 from parser.geometry.curves import Ints
-from parser.text.lines import LineIndex
-from parser.text.source import Field, Span
+from parser.text.source import Field, LineIndex, Span
 from parser.toolpath import Toolpath
 
 

@@ -225,15 +225,13 @@ _codes = {
     "PMC209": FindingCode(Severity.ERROR, Check.BLOCKS),
 }
 CODES: Mapping[str, FindingCode] = MappingProxyType(_codes)
-"""All codes by their names; those of checks of a shop's own stand last, once such checks were found."""
+"""All codes by their names, in their order; those of checks of a shop's own stand last, once such checks were found."""
 
 
 def add_codes(codes: Mapping[str, FindingCode]) -> None:
     """Make codes of a shop's own known."""
     _codes.update(codes)
 
-
-"""All codes, in their order."""
 
 CODES_OF_ISO: Mapping[str, str] = MappingProxyType(
     {

@@ -1,4 +1,17 @@
-"""Which curves lie near which, by the cells of a grid: the broad phase of every search for crossings and distances."""
+"""Which curves lie near which, by the cells of a grid: the broad phase of every search for crossings and distances.
+
+Curves in a grid: pieces of them, the box of each, and the cells that it touches.
+
+Cells of a grid as keys: places that fall into one cell are found by sorting.
+
+Which blocks of a contour come near each other: the broad phase of the search for crossings.
+
+Every block is cut into pieces about as long as the contour's blocks are on average, every piece is entered in the
+cells of a grid that its box touches, and only blocks with pieces in one cell are looked at further. Two boxes that
+meet may share several cells: they count in the one that holds the lowest and leftmost place of both.
+
+Which curves lie near some places, or near some other curves: the broad phase of the search for distances.
+"""
 
 from collections.abc import Iterator
 from typing import Final, NamedTuple

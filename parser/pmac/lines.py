@@ -23,8 +23,7 @@ from parser.pmac.expressions import (
 )
 from parser.pmac.macros import Expanded, Online, expanded
 from parser.text.encoding import narrow
-from parser.text.lines import LineIndex
-from parser.text.source import Span
+from parser.text.source import LineIndex, Span
 
 _NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)"
 _VALUE = rf"(?:{_NUMBER}|\([ \t]*{_NUMBER}[ \t]*\))"

@@ -1,4 +1,12 @@
-"""What a text says outside of motion programs: directives of the download, and commands to the card itself."""
+"""What a text says outside of motion programs: directives of the download, and commands to the card itself.
+
+Directives of the download: names that ``#define`` gives a text, and lines that ``#ifdef`` leaves out.
+
+The card never sees them: the program that sends the file to it works them out (Turbo PMAC User's Manual, "Communicating
+with the host", on substitution macros). Macros with parameters and included files are not worked out.
+
+What a text says to the card itself, outside of motion programs: variables, their definitions, the program begun.
+"""
 
 import re
 from typing import NamedTuple

@@ -1,7 +1,7 @@
 """Words of a whole path, each block told from where the one before it decodes to, so that rounding does not add up.
 
 So do the CAMs (docs/3b.md §1). The controller's own chain, from stepped end to stepped end, is in
-`controller.stepping.point_by_point`.
+`controller.stepping.steps`.
 
 One arc told and decoded in plain numbers: to the last bit what `rules` and `moves` give (tests hold it so).
 

@@ -1,4 +1,16 @@
-"""Lines and arcs to words, by the rules of the trade (docs/3b.md §1), and words to the moves that they make."""
+"""Lines and arcs to words, by the rules of the trade (docs/3b.md §1), and words to the moves that they make.
+
+Labels of blocks, Z: letters for a line or the sense of an arc, and the digit of the quadrant (docs/3b.md §1).
+
+Words that tell lines and arcs, by the trade's rules for quadrant, count length and count axis (docs/3b.md §1).
+
+Words to moves: what each block does from where it starts, exactly, the count length J deciding where it ends.
+
+Arcs from 3B words: count length and counted axis give the end in closed form, any number of quadrants and turns.
+
+The counted coordinate of a point that runs round a circle of radius R is a triangle wave of period 4R in the length
+counted off. Adding J to its phase and folding back gives the end; no walk from quadrant to quadrant.
+"""
 
 from dataclasses import replace
 from typing import Final, NamedTuple

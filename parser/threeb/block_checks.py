@@ -12,8 +12,7 @@ from parser.geometry.curves import Ints
 from parser.shape.contours import ends_closed
 from parser.shape.passes import Passes, find_passes
 from parser.step_words.words import label
-from parser.text.lines import LineIndex
-from parser.text.source import Field
+from parser.text.source import Field, LineIndex
 from parser.threeb.decode import decoded_words, is_open_way, placed_marks
 from parser.threeb.reader import RADIUS_TOLERANCE_UM, Mark, Records
 from parser.threeb.tokens import FOREIGN_ENDS, LIKE_A_BLOCK

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from parser.geometry.curves import Ints
-from parser.text.lines import Codes, LineIndex
+from parser.text.source import Codes, LineIndex
 from parser.threeb.tokens import BLOCK_FIELDS, GROUP_AT, GROUPS
 from parser.units import MAX_PLACE_UM, MAX_WORD_UM, from_mm
 

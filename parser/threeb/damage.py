@@ -8,7 +8,7 @@ import numpy as np
 
 from parser.findings.findings import DamagedBlock, Finding
 from parser.geometry.curves import Ints
-from parser.text.lines import LineIndex
+from parser.text.source import LineIndex
 from parser.threeb.tokens import FLAGS, LABEL
 
 _INKED_LINE = re.compile(r"[^\s\0-\x1f][^\r\n]*")

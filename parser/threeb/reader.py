@@ -20,10 +20,15 @@ from parser.findings.errors import ProgramError
 from parser.findings.findings import Finding, TooLarge, file_order
 from parser.geometry.curves import Ints
 from parser.text.encoding import narrow, no_program
-from parser.text.lines import LineIndex
+from parser.text.source import LineIndex
 from parser.threeb.columns import RawBlocks, all_rows, columns_of, columns_of_plain, plain_lines, read_mm
 from parser.threeb.damage import Unread, unread
-from parser.threeb.header import Header, HeaderLength, read_header, read_length
+from parser.threeb.print_checks import (
+    Header,
+    HeaderLength,
+    read_header,
+    read_length,
+)
 from parser.threeb.tokens import (
     FOREIGN_ENDS,
     GROUP_AT,

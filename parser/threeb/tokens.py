@@ -16,8 +16,7 @@ import numpy as np
 
 from parser.dialect.reader import STANDARD_MARKS, Marks
 from parser.text.encoding import narrow
-from parser.text.lines import LineIndex
-from parser.text.source import Field, Span
+from parser.text.source import Field, LineIndex, Span
 
 OWN_MARKS = Marks(end=("DD",), pause=("D",))
 """Marks of the dialect itself (docs/3b.md §2)."""

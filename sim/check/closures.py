@@ -9,8 +9,7 @@ from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
-from controller.stepping.point_by_point import interpolate, words_of
-from controller.stepping.steps import Steps
+from controller.stepping.steps import Steps, interpolate, words_of
 from parser.controller_words import Axis, StepWords
 from parser.dialect.mender import Suspect
 from parser.dialect.reader import at_block

@@ -22,8 +22,7 @@ from parser.findings.errors import DrycutError, FileUnreadableError, ProgramErro
 from parser.findings.findings import DamagedBlock, Edit, Finding, compatible, edited, telling
 from parser.program import Program, load_program, none_there
 from parser.text.encoding import decode_text, encode_text
-from parser.text.lines import LineIndex
-from parser.text.source import Source
+from parser.text.source import LineIndex, Source
 from sim.check.fixes import with_edits
 from sim.check.own_checks import with_own_checks
 from sim.check.path_checks import PARSER_CHECKS, PATH_CHECKS, Checked, run_checks

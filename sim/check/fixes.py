@@ -5,7 +5,7 @@ from collections import Counter
 from itertools import islice
 from typing import NamedTuple
 
-from controller.stepping.point_by_point import words_of
+from controller.stepping.steps import words_of
 from parser.controller_words import Axis
 from parser.dialect.mender import Mend, Mender
 from parser.findings.findings import (
@@ -21,8 +21,7 @@ from parser.findings.findings import (
 from parser.program import Program
 from parser.shape.contours import Contour
 from parser.shape.loops import is_circle
-from parser.text.lines import LINE_END
-from parser.text.source import Field
+from parser.text.source import LINE_END, Field
 from sim.check.blame.settle import MOST_PRINTED, WrongWord
 from sim.check.closures import OpenContour, Suspected, WrongAxis
 from sim.check.path_checks import Checked

@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from controller.stepping.point_by_point import interpolate
-from controller.stepping.steps import Steps
+from controller.stepping.steps import Steps, interpolate
 from parser.dialect.reader import in_codes
 from parser.findings.codes import Check
 from parser.findings.findings import DoubtfulEnd, Finding, TooLarge, file_order, telling
@@ -26,10 +25,9 @@ from sim.check.gouges import gouge_findings
 from sim.check.offset import header_offset_findings
 from sim.check.passes import followed_findings, pass_findings, tab_findings
 from sim.check.radius_rule import radius_rule_findings, vanishing_findings
-from sim.check.rapids import rapid_findings, tab_stop_findings, uncut_jump_findings
 from sim.check.result import CheckState, Coverage
 from sim.check.strokes import doubled_findings, retraced_contours, retraced_findings, swapped_findings
-from sim.check.travel import too_many_steps, travel_findings
+from sim.check.travel import rapid_findings, tab_stop_findings, too_many_steps, travel_findings, uncut_jump_findings
 
 if TYPE_CHECKING:  # most checks know no machine, and most programs do not compensate
     from sim.check.compensation.check import OwnCompensation

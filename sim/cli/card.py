@@ -180,7 +180,7 @@ def run_client(options: ClientOptions, *, as_json: bool) -> int:
     """Start the client, run its calls again and print what came of it; the exit code."""
     from sim.base.files import scratch
     from sim.cli.progress import StageProgress
-    from sim.clients.started import Wanted, started
+    from sim.clients.session import Wanted, started
     from sim.jobs.run_into import STAGES, client_into, names_of
     from sim.run.findings import verdict
     from sim.run.report import report_text

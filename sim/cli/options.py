@@ -1,4 +1,9 @@
-"""Options that several commands share: lengths with their units, and what an ISO program is read with."""
+"""Options that several commands share: lengths with their units, and what an ISO program is read with.
+
+Options that take lengths with their units, and those of settings, made from the rows of their keys.
+
+Options that say what an ISO program is read with: dialect, unit, values of offset registers.
+"""
 
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path

@@ -106,8 +106,7 @@ def _written(made: "MadeProgram", request: _ProgramRequest, tongue: "Tongue", *,
 def _program_request(path: Path, output: Path | None, options: Options, *, is_written: bool) -> _ProgramRequest:
     """What is to be made. UsageError where it is not said which drawing, or where to."""
     from sim.make.cam.maker import drawing_to_cut
-    from sim.setup.making import ToMake
-    from sim.setup.program_section import of_drawing, refuse_misfits
+    from sim.setup.making import ToMake, of_drawing, refuse_misfits
 
     scenario = _scenario(path, output, options)
     if path.is_dir():

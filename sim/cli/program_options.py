@@ -189,7 +189,7 @@ def options_of(options: dict[str, Any]) -> Options:
 
 def making_of(own: "Making", options: Options) -> "Making":
     """What is asked of the maker. UsageError for options that exclude each other; SettingsError for odd numbers."""
-    from sim.setup.program_section import refuse_odd
+    from sim.setup.making import refuse_odd
 
     given = {
         "tolerance_um": options.tolerance,

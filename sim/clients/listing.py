@@ -24,8 +24,7 @@ from parser.findings.codes import Check
 from parser.findings.findings import Finding
 from parser.geometry.curves import Bools, CurveKind, Curves
 from parser.program import Program
-from parser.text.lines import LineIndex
-from parser.text.source import Source
+from parser.text.source import LineIndex, Source
 from parser.toolpath import Toolpath
 from sim.clients.session import ClientCall, Event, Questions, Session
 

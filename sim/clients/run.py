@@ -21,8 +21,8 @@ import numpy as np
 
 from controller.host.entries import Drive
 from controller.motion.limits import row_limits
-from controller.stepping.point_by_point import interpolate
 from controller.stepping.pulses import Pulses
+from controller.stepping.steps import interpolate
 from parser import __version__
 from parser.findings.codes import Check
 from parser.program import Program
@@ -30,11 +30,9 @@ from sim.base.progress import Progress, silent
 from sim.check.result import CheckState, Coverage
 from sim.check.travel import middle_mm, refusal, too_many_steps, travel_findings
 from sim.clients.listing import Again, again, program_of, pulses_again
-from sim.clients.session import Questions, Session
-from sim.clients.started import Ended
+from sim.clients.session import Ended, Questions, Session
 from sim.clients.unseen import Unseen, call_text, unseen_findings, unseen_of
-from sim.run.dryrun import DryRun, PulseSink
-from sim.run.ending import travel_end
+from sim.run.dryrun import DryRun, PulseSink, travel_end
 from sim.run.prepare import Prepared
 from sim.run.report.document import finding_entry
 from sim.run.report.model import CardDocument, ReportDocument

@@ -17,7 +17,7 @@ from typing import Final, NamedTuple
 from controller.card.core.call import Code
 from controller.card.core.state import LimitMet
 from parser.findings.findings import Finding
-from parser.text.lines import LineIndex
+from parser.text.source import LineIndex
 from sim.clients.listing import Again
 from sim.clients.session import ClientCall, Event, Questions, Session
 

@@ -20,8 +20,7 @@ from sim.base.files import StepFiles, staged
 from sim.base.progress import Progress, silent
 from sim.clients.listing import NAME as CALLS
 from sim.clients.run import ClientRun, Read, card_document, read_again, run_client, without_motion
-from sim.clients.session import session_of
-from sim.clients.started import Ended
+from sim.clients.session import Ended, session_of
 from sim.jobs.trace_file import TRACE, write_trace
 from sim.run.dryrun import DryRun
 from sim.run.recording import Recording, recording_of, reported, stages_of

@@ -16,8 +16,7 @@ from controller.offset.chain import OffsetPath, offset_toolpath
 from controller.offset.compensate import compensate
 from controller.offset.passes import PassedPath, PassedRound, first_without_way_back, in_passes
 from controller.offset.shifted import Side, closed_contour, rounds_of
-from controller.stepping.point_by_point import interpolate
-from controller.stepping.steps import Steps
+from controller.stepping.steps import Steps, interpolate
 from parser.dialect.reader import in_codes
 from parser.findings.codes import Check, Severity
 from parser.findings.errors import ProgramError, SettingsError

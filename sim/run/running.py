@@ -32,8 +32,7 @@ from sim.measure.causes import Meters
 from sim.measure.compare.findings import compare_cut, drawing_findings
 from sim.measure.compare.result import Comparison
 from sim.measure.passes import PassFigures, figures_of_passes, wire_taken
-from sim.run.dryrun import DryRun, PulseSink
-from sim.run.ending import Ending, motion_to_end, trip_of
+from sim.run.dryrun import DryRun, Ending, PulseSink, motion_to_end, trip_of
 from sim.run.prepare import Prepared, prepare
 from sim.setup.part import DrawingTarget
 from sim.setup.scenario import Scenario

@@ -18,7 +18,7 @@ from sim.setup import scenario
 from sim.setup.expectations import EXPECT
 from sim.setup.key_words import setting_text, words, words_of
 from sim.setup.machine import machine
-from sim.setup.program_section import PROGRAM
+from sim.setup.making import PROGRAM
 from sim.setup.quiz import QUIZ
 from sim.setup.toml.keys import Key, Section
 from sim.setup.toml.kinds import Number, OneOf

@@ -20,7 +20,7 @@ from parser.units import from_mm
 from sim.setup.dialect import READ_WITH, chosen_dialect
 from sim.setup.expectations import EXPECT, Expectation, expect_section, read_expectation
 from sim.setup.machine.machine import INTERPOLATOR, Machine, load_machine
-from sim.setup.making import LayerWish, ToMake
+from sim.setup.making import LAYER, PROGRAM, LayerWish, ToMake, read_to_make
 from sim.setup.obstacles import CLAMPS, Clamp, Outline, read_clamps
 from sim.setup.part import (
     DEFAULT_DENSITY_G_CM3,
@@ -39,7 +39,6 @@ from sim.setup.part import (
     read_drawing_target,
     read_offset,
 )
-from sim.setup.program_section import LAYER, PROGRAM, read_to_make
 from sim.setup.quiz import QUIZ, Question, read_quiz
 from sim.setup.toml.keys import Key, Section, WrittenSection
 from sim.setup.toml.kinds import FileName, Name, Number, TablePlace, Text, Truth

@@ -22,8 +22,7 @@ from parser.toolpath import Toolpath
 from sim.check.file_check import check_program
 from sim.check.result import CheckResult
 from sim.check.settings import CheckSettings
-from sim.teach.kinds import KINDS, Group
-from sim.teach.sound import Slip, Sound
+from sim.teach.kinds import KINDS, Group, Slip, Sound
 
 Level = Literal["words", "picture", "sums"]
 """What gives a fault away: the words of its block by themselves, the picture of the path, or sums alone."""

@@ -17,7 +17,7 @@ from controller.card.engine.stretch import Start, make_stretch
 from controller.motion.limits import Path
 from controller.motion.planner import RowLimits, plan_rows
 from controller.stepping.chunks import chunk_of
-from controller.stepping.point_by_point import interpolate_words
+from controller.stepping.steps import interpolate_words
 from parser.controller_words import StepWords
 
 PERIOD_S = 200e-6

@@ -27,8 +27,8 @@ from controller.motion.limits import (
 )
 from controller.motion.planner import plan_rows
 from controller.stepping.interpolators import EqualTime, PointByPoint
-from controller.stepping.point_by_point import interpolate
 from controller.stepping.pulses import Pulses
+from controller.stepping.steps import interpolate
 from parser.program import load_program, parse_program
 from parser.toolpath import Toolpath
 

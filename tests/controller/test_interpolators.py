@@ -19,9 +19,8 @@ from controller.motion.planner import RowLimits, plan_rows
 from controller.stepping import chunks
 from controller.stepping.chunks import StepChunk, chunk_of
 from controller.stepping.interpolators import EqualTime, Interpolator, PointByPoint
-from controller.stepping.point_by_point import interpolate
 from controller.stepping.pulses import Pulses, joined, no_pulses
-from controller.stepping.steps import Steps
+from controller.stepping.steps import Steps, interpolate
 from parser.program import parse_program
 from parser.toolpath import Toolpath
 

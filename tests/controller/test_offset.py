@@ -20,7 +20,7 @@ from controller.offset.chain import OffsetPath, RowOrigin, offset_toolpath
 from controller.offset.compensate import compensate
 from controller.offset.passes import PassedPath, in_passes
 from controller.offset.shifted import OffsetSection, Side
-from controller.stepping.point_by_point import interpolate
+from controller.stepping.steps import interpolate
 from parser.geometry.curves import CurveKind, Curves, Floats, Ints, curves_between, joined
 from parser.geometry.distance import distance_to_curves
 from parser.toolpath import Stop, Toolpath

@@ -12,8 +12,7 @@ from plain import PlainBlock, plain_steps
 from strategies import arcs, blocks, lines, program_text, programs
 
 from controller.stepping.chunks import chunk_of
-from controller.stepping.point_by_point import interpolate
-from controller.stepping.steps import Steps
+from controller.stepping.steps import Steps, interpolate
 from controller.stepping.strokes import ceil_sqrt
 from parser.program import parse_program, read_program
 

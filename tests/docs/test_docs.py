@@ -20,7 +20,7 @@ from report_schema import complaints, validator
 from runs import scenario_run
 
 from controller.stepping.chunks import chunk_of
-from controller.stepping.point_by_point import interpolate
+from controller.stepping.steps import interpolate
 from parser.findings.catalogue import Language
 from parser.findings.catalogue import page as catalogue_page
 from parser.findings.codes import CODES, Check

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from plain_ends import plain_ends, random_path
 
-from controller.stepping.point_by_point import interpolate_words
+from controller.stepping.steps import interpolate_words
 from parser.controller_words import Axis
 from parser.geometry.curves import Curves, Floats, curves_between
 from parser.step_words.chained import Chained, chained_words

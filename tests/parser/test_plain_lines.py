@@ -7,7 +7,7 @@ import pytest
 from cam_programs import sound_program
 
 from parser.dialect.reader import Marks
-from parser.text.lines import LineIndex
+from parser.text.source import LineIndex
 from parser.threeb import reader
 from parser.threeb.columns import RawBlocks, plain_lines
 from parser.threeb.reader import Records, read_records

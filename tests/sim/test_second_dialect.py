@@ -17,7 +17,7 @@ from runs import codes, plain_scenario, run_text
 from tiny_dialect import TinyReader
 
 from controller.offset.shifted import Side
-from controller.stepping.point_by_point import interpolate
+from controller.stepping.steps import interpolate
 from parser import program as door
 from parser.findings.errors import FileUnreadableError, ProgramError, SettingsError
 from parser.program import load_program, parse_program
@@ -272,8 +272,7 @@ _SPEAK_3B = {
     "sim/cli/convert.py": "writes 3B, whose forms its options name",
     "sim/cli/program.py": "makes 3B, which its help names",
     "sim/teach/kinds.py": "letters that a hand leaves out of blocks, where a program has them",
-    "sim/setup/making.py": "makes 3B, whose forms and codes its types name",
-    "sim/setup/program_section.py": "asks for 3B, whose forms and codes its settings name",
+    "sim/setup/making.py": "asks for 3B, whose forms and codes its settings name",
     "sim/run/ballbar/circle.py": "writes the circle of the test as a 3B program",
     "sim/show/replay/assets/decisions.js": "what a counting controller does in each quadrant, where there are words",
     "sim/show/replay/assets/readouts.js": "the count that is left and the comparison, where a program has words",

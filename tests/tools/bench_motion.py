@@ -16,7 +16,7 @@ from controller.host.host import Host
 from controller.motion.limits import Feeds, JunctionDeviation, MotionLimits, row_limits
 from controller.motion.planner import plan_rows
 from controller.stepping.interpolators import PointByPoint
-from controller.stepping.point_by_point import interpolate
+from controller.stepping.steps import interpolate
 from parser.program import read_program
 
 FEEDS = Feeds(cut_um_s=43.75, jump_um_s=500.0)

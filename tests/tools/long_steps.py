@@ -14,7 +14,7 @@ from chunked import chunks_of
 from plain import PlainBlock, plain_steps
 from strategies import program_text
 
-from controller.stepping.point_by_point import interpolate
+from controller.stepping.steps import interpolate
 from parser.program import parse_program
 
 SEED = 20260101

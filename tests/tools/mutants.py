@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from cam_programs import Sound
 
-import sim.teach.sound
+import sim.teach.kinds
 from parser.program import parse_program
 from sim.teach.kinds import KINDS as OF_DRILLS
 
@@ -55,5 +55,5 @@ def mutant(rng: random.Random, sound: Sound, kind: str | None = None) -> Mutant 
 
 
 @cache
-def _read(text: str) -> sim.teach.sound.Sound:
-    return sim.teach.sound.Sound(parse_program(text))
+def _read(text: str) -> sim.teach.kinds.Sound:
+    return sim.teach.kinds.Sound(parse_program(text))

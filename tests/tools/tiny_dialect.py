@@ -16,8 +16,7 @@ from parser.findings.errors import ProgramError
 from parser.findings.findings import file_order
 from parser.geometry.curves import Floats, curves_between
 from parser.text.encoding import no_program
-from parser.text.lines import LineIndex
-from parser.text.source import Field, Source, Span
+from parser.text.source import Field, LineIndex, Source, Span
 from parser.toolpath import Stop, Toolpath
 from parser.units import from_mm
 

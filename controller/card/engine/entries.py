@@ -23,8 +23,7 @@ import numpy as np
 
 from controller.card.core.call import Code, Refused
 from controller.card.core.settings import AXES
-from controller.stepping.point_by_point import interpolate_words
-from controller.stepping.steps import Steps
+from controller.stepping.steps import Steps, interpolate_words
 from parser.controller_words import StepWords
 
 Place: TypeAlias = tuple[float, float, float, float]

@@ -1,4 +1,7 @@
-"""Ellipses, splines and dense polylines of a drawing made arcs, many at a time."""
+"""Ellipses, splines and dense polylines of a drawing made arcs, many at a time.
+
+Where some of them cannot be fitted, the others are.
+"""
 
 from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple

@@ -1,4 +1,12 @@
-"""Joints of loose ends: which two ends are one joint, and joints made one place."""
+"""Joints of loose ends: which two ends are one joint, and joints made one place.
+
+Which loose ends lie near each other, and which two of them are one joint.
+
+Joints made one place: files lose digits, and curves that were drawn end to start come nanometres apart.
+
+Past such a joint a path stands beside itself: what a wire leaves in a corner, and whether it can cut there at all, is
+then a matter of the last digit, and another one when the same contour is drawn as one polyline.
+"""
 
 from collections.abc import Sequence
 from typing import NamedTuple

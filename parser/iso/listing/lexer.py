@@ -16,7 +16,7 @@ from parser.geometry.curves import Bools, Floats, Ints
 from parser.iso.listing.lines import OddLine, PlainWords, odd_line, plain_words
 from parser.iso.listing.listing import Blocks, ByLetter, Listing, Unread, Words
 from parser.text.encoding import narrow, no_program
-from parser.text.lines import Codes, LineIndex
+from parser.text.source import Codes, LineIndex
 
 _REMARK = re.compile(r"(?<![A-Za-z][A-Za-z])\((?:[^()\r\n]*\)|[^\r\n]*)|;[^\r\n]*")
 _TAPE_MARK = re.compile(r"%[^\r\n]*")

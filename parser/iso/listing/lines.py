@@ -1,4 +1,8 @@
-"""The words of one line: lines of plain words, which most are, as arrays of characters; all others one by one."""
+"""The words of one line: lines of plain words, which most are, as arrays of characters; all others one by one.
+
+All others: lines that are skipped, titles, assignments, functions, macros, what is no word. Read one by one, a line of
+plain words gives the same.
+"""
 
 import re
 from itertools import pairwise
@@ -9,7 +13,7 @@ from numpy.typing import NDArray
 
 from parser.geometry.curves import Floats, Ints
 from parser.iso.listing.listing import Assignment, Form, Statement
-from parser.text.lines import Codes
+from parser.text.source import Codes
 
 MOST_DIGITS = 15
 """Digits of which every whole number is exact as a float64; numbers of more are left to the other reader."""

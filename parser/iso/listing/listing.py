@@ -7,7 +7,7 @@ import numpy as np
 
 from parser.findings.findings import Finding, Value
 from parser.geometry.curves import Bools, Floats, Ints
-from parser.text.lines import LineIndex
+from parser.text.source import LineIndex
 
 _LETTERS = 256  # codes of letters, with room
 

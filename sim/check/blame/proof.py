@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from controller.stepping.point_by_point import words_of
+from controller.stepping.steps import words_of
 from parser.dialect.mender import Mend, Mender
 from parser.dialect.reader import at_block
 from parser.findings.findings import (

@@ -19,8 +19,8 @@ from parser.findings.errors import FileUnreadableError, ProgramError
 from parser.findings.findings import Finding
 from parser.program import Program, load_program
 from parser.text.encoding import printable
-from parser.text.lines import LINE_END
 from parser.text.places import place
+from parser.text.source import LINE_END
 from sim.base.files import replace_file, staged
 from sim.check.file_check import Job, mended_text
 from sim.check.fixes import Choice, choices

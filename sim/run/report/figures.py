@@ -24,8 +24,7 @@ from sim.cut.remains import Remains
 from sim.cut.sizes import BoxSize, DistanceSize, RadiusSize, Sizes
 from sim.measure.causes import Deviations, Part
 from sim.measure.deviation import Deviation, Where
-from sim.run.dryrun import DryRun
-from sim.run.ending import Ending
+from sim.run.dryrun import DryRun, Ending
 from sim.run.report.cut_model import (
     BoxEntry,
     DistanceEntry,

@@ -30,15 +30,14 @@ from lsprotocol.types import (
     SymbolKind,
 )
 
-from controller.stepping.point_by_point import interpolate
+from controller.stepping.steps import interpolate
 from parser.findings.catalogue import Language
 from parser.findings.errors import ProgramError
 from parser.findings.findings import Edit, edited
 from parser.program import Program, load_program
 from parser.shape.contours import Contour, find_contours
 from parser.text.encoding import narrow, printable
-from parser.text.lines import LineIndex
-from parser.text.source import Span
+from parser.text.source import LineIndex, Span
 from parser.toolpath import Block, Point, Toolpath
 from parser.units import mm_text
 from sim.check.file_check import AsTyped, mended_text

@@ -7,14 +7,14 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 
 from controller.motion.limits import Feeds
-from controller.stepping.point_by_point import interpolate
+from controller.stepping.steps import interpolate
 from parser.findings.catalogue import LANGUAGES, Bilingual, page, texts
 from parser.findings.findings import Finding
 from parser.program import Program, usual_name
 from parser.shape.contours import find_contours
 from parser.shape.passes import find_passes, leads_of
 from parser.text.encoding import decode_text, encode_text, printable
-from parser.text.lines import LINE_END
+from parser.text.source import LINE_END
 from sim.base.units import numbers, rounded
 from sim.check.file_check import as_typed
 from sim.check.result import CheckResult

@@ -27,9 +27,8 @@ from sim.serve.page.answers import read_file
 from sim.serve.page.child import PageRequest, do, telling
 from sim.serve.page.form import number_of, offsets_um, scenario_of
 from sim.setup.making import LANGUAGES as PROGRAM_LANGUAGES
-from sim.setup.making import Making, ToMake
+from sim.setup.making import OR_NONE_MM, OVERCUT_MM, Making, ToMake, refuse_odd
 from sim.setup.part import DrawingTarget
-from sim.setup.program_section import OR_NONE_MM, OVERCUT_MM, refuse_odd
 from sim.setup.scenario import Scenario
 from sim.show.refusals import why_refused
 from sim.show.replay.tape import drawing_columns

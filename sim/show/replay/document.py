@@ -19,7 +19,7 @@ import shapely
 
 from controller.decode.blocks import Decoded, decoded
 from controller.motion.plan import Plan
-from controller.stepping.point_by_point import words_of
+from controller.stepping.steps import words_of
 from parser import __version__
 from parser.controller_words import Axis, StepWords
 from parser.findings.catalogue import Language, texts
@@ -39,8 +39,7 @@ from sim.base.units import (
 from sim.cut.pieces.pieces import Piece
 from sim.cut.regions import simpler
 from sim.run.course import Happening, PassOf, course_of, passes_of
-from sim.run.dryrun import DryRun
-from sim.run.ending import Ending
+from sim.run.dryrun import DryRun, Ending
 from sim.run.findings import outcome
 from sim.run.recording import Recording
 from sim.setup.obstacles import Outline

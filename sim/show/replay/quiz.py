@@ -14,8 +14,8 @@ from typing import Final, NamedTuple, get_args
 
 import numpy as np
 
-from controller.stepping.point_by_point import words_of
 from controller.stepping.pulses import Pulses
+from controller.stepping.steps import words_of
 from parser.controller_words import StepWords
 from parser.findings.catalogue import LANGUAGES, Bilingual, texts
 from parser.findings.codes import Severity

@@ -17,8 +17,7 @@ from parser.findings.catalogue import Language
 from parser.text.encoding import printable
 from parser.units import mm
 from sim.clients.run import ClientRun, card_document
-from sim.clients.session import Questions
-from sim.clients.started import Ended
+from sim.clients.session import Ended, Questions
 from sim.run.ballbar.circle import Ballbar
 from sim.run.ballbar.figures import NAMES
 from sim.show.ballbar_rows import Row, figure_rows, loss_text, part_rows, setup_rows, um

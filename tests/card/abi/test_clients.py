@@ -90,6 +90,7 @@ def test_a_hook_hears_of_each_call_and_asks_the_card(library: Made, tmp_path: Pa
     repeated(ran)
 
 
+@pytest.mark.deeper
 def test_three_threads_end_alike_each_time(library: Made, tmp_path: Path) -> None:
     ran = library.run(library.client("stream"), tmp_path, "threads", "10")
     assert (ran.code, ran.err) == (0, "")

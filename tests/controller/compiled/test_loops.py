@@ -137,6 +137,7 @@ def test_damaged_machine_code_is_compiled_again(loops: Path) -> None:
     assert entry.read_bytes() == sound
 
 
+@pytest.mark.deeper
 def test_where_nothing_can_be_stored_a_loop_is_compiled_each_time(loops: Path) -> None:
     for cache in ("outer.py", "outer.py/within"):
         assert printed(loops, loops / cache) == ["compiling", "10.0"]

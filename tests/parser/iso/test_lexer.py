@@ -10,7 +10,7 @@ from parser.iso.listing import lexer
 from parser.iso.listing.lexer import read_listing
 from parser.iso.listing.lines import PlainWords, plain_words
 from parser.iso.listing.listing import Form, Listing
-from parser.text.lines import Codes
+from parser.text.source import Codes
 
 NO_WORDS = plain_words(np.frombuffer(b" ", dtype=np.uint8))
 PIECES = [

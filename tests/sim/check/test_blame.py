@@ -81,7 +81,7 @@ def test_an_arc_label_that_may_be_a_slip_of_either_sense_names_both() -> None:
     assert "SR3" in found.values["others"].split(" / ")
 
 
-@pytest.mark.deep
+@pytest.mark.deeper
 def test_slips_in_printed_programs_are_named_right_and_never_told_two_ways() -> None:
     done = list(measured(random.Random(20261122), len(cases(2, 12)), printed=True))
     assert [contradiction(one.result) for one in done if one.contradicts] == []

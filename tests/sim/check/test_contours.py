@@ -4,7 +4,7 @@ import pytest
 from line_words import line_words
 from runs import codes, run_text
 
-from controller.stepping.point_by_point import interpolate
+from controller.stepping.steps import interpolate
 from parser.findings.findings import Finding
 from parser.program import parse_program
 from parser.shape.contours import find_contours

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from plain import PlainBlock, plain_steps
 
-from controller.stepping.point_by_point import interpolate
+from controller.stepping.steps import interpolate
 from parser.findings.findings import Finding
 from parser.program import parse_program
 from sim.check.closures import (

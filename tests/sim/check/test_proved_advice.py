@@ -46,6 +46,7 @@ def test_another_word_that_is_left_in_silence_is_named_and_the_first_guess_is_no
     assert (found[1].block, found[1].values["written"], found[1].values["other"]) == (6, "NR2", "NR4")
 
 
+@pytest.mark.deeper
 def test_words_of_programs_in_several_passes_are_named_and_hardly_a_wrong_one_is() -> None:
     """Before there were trials 47 % were named right, and 6.5 % wrong; of 2,800 these are 73 % and 0.25 %."""
     verdicts: Counter[str] = Counter()

@@ -2,7 +2,7 @@
 
 import pytest
 
-from controller.stepping.point_by_point import interpolate
+from controller.stepping.steps import interpolate
 from parser.findings.findings import Finding
 from parser.program import parse_program
 from sim.check.travel import travel_findings

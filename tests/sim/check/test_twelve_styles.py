@@ -69,6 +69,7 @@ def test_of_sound_programs_all_say_that_they_are(style: str) -> None:
     assert len(accused) <= _ACCUSED * len(cases(1, 850)), accused
 
 
+@pytest.mark.deeper
 def test_a_lead_that_strays_is_told_where_it_cuts_into_the_part_and_nowhere_else() -> None:
     """By a comparison always; by a check, which has no drawing, but for slits from the edge into the part and back.
 

@@ -8,8 +8,7 @@ from runs import plain_scenario
 
 from parser.findings.errors import SettingsError
 from sim.jobs.shop import Source, program_read
-from sim.setup.making import ToMake, Writing
-from sim.setup.program_section import refuse_misfits
+from sim.setup.making import ToMake, Writing, refuse_misfits
 
 SQUARE = "B100B0B100GXL1\nB0B100B100GYL2\nB100B0B100GXL3\nB0B100B100GYL4\n"
 JUMP = "B5000B0B5000GXL1\n"

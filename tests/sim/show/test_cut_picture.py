@@ -411,6 +411,7 @@ def test_golden_thumbnail() -> None:
     assert_golden(draw_cut_of_run(pixels(320), run, pieces_of_run(run)).image(), "cut-thumbnail.png")
 
 
+@pytest.mark.deeper
 def test_an_a3_page_in_time() -> None:
     path = rounded(4000.0)
     cut = cut_of(path, pieces=pieces_along(path), trace=trace_of(path))

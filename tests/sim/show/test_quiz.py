@@ -17,8 +17,8 @@ from runs import plain_scenario, scenario_recording
 from strategies import blocks, program_text
 
 from controller.offset.shifted import Side
-from controller.stepping.point_by_point import words_of
 from controller.stepping.pulses import Pulses
+from controller.stepping.steps import words_of
 from parser.findings.catalogue import Bilingual
 from parser.findings.errors import SettingsError
 from parser.program import parse_program, read_program

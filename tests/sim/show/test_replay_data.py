@@ -22,8 +22,8 @@ from runs import scenario_recording
 from strategies import program_text
 
 from controller.stepping.chunks import chunk_of
-from controller.stepping.point_by_point import interpolate
 from controller.stepping.pulses import Pulses
+from controller.stepping.steps import interpolate
 from parser.geometry.curves import Floats
 from parser.program import parse_program
 from parser.toolpath import Point

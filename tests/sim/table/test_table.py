@@ -126,6 +126,7 @@ def test_a_circle_at_constant_feed_has_radius_and_phase_of_the_second_order_resp
         assert np.angle(got) == pytest.approx(np.angle(response), abs=1e-5)  # rad; 0.03 late
 
 
+@pytest.mark.deeper
 def test_without_friction_and_damping_energy_drifts_by_less_than_a_percent_over_100_000_ticks() -> None:
     model = MODEL._replace(drive_damping_ratio=0.0)
     for drive in drives_of(model):

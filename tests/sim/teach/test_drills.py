@@ -24,8 +24,7 @@ from sim.teach.drills import (
     level_of,
     lines_of,
 )
-from sim.teach.kinds import KINDS, groups_of
-from sim.teach.sound import Sound
+from sim.teach.kinds import KINDS, Sound, groups_of
 
 SQUARE = "B0B1000B1000GYL2\nB1000B0B1000GXL1\nB0B1000B1000GYL4\nB1000B0B1000GXL3\nDD\n"
 FOUR_B = "B5000B0B5000B0GXL1\nB1000B0B4000B1000DGYNR1\nB5000B0B5000B0GXL3\nDD\n"

@@ -17,7 +17,7 @@ from parser.findings.codes import CODES, Severity
 from parser.findings.errors import ProgramError
 from parser.findings.findings import Finding, edited
 from parser.text.encoding import decode_text, encode_text
-from parser.text.lines import LineIndex
+from parser.text.source import LineIndex
 from sim.check.file_check import Job, check_file
 from sim.check.result import CheckResult
 from sim.check.settings import CheckSettings

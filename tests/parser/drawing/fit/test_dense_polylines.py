@@ -118,6 +118,7 @@ def test_what_is_fitted_lies_within_its_bound_of_what_is_drawn_and_the_bound_wit
     np.testing.assert_allclose(ends, arcs.end_um, atol=1e-6)
 
 
+@pytest.mark.deeper
 @pytest.mark.parametrize(
     ("vertices", "counts"),
     [

@@ -39,7 +39,7 @@ def _of_ellipse(path: Path, tolerance_um: float, offset_um: float) -> MadeProgra
     return done
 
 
-@pytest.mark.alike(1)
+@pytest.mark.deeper
 @pytest.mark.parametrize(("tolerance_um", "most_blocks"), [(1.0, 33), (2.0, 25), (5.0, 18)])
 def test_an_ellipse_takes_as_few_blocks_as_nodes_on_it_within_the_tolerance(
     tolerance_um: float, most_blocks: int, path: Path

@@ -5,7 +5,7 @@ import random
 import pytest
 from lsprotocol.types import Position
 
-from parser.text.lines import LineIndex
+from parser.text.source import LineIndex
 from sim.serve.editor.shown import Places
 
 UNITS = {"utf-8": ("utf-8", 1), "utf-16": ("utf-16-le", 2), "utf-32": ("utf-32-le", 4)}

@@ -7,8 +7,8 @@ import pytest
 from parser.findings.errors import SettingsError
 from sim.serve.page.form import offsets_um, scenario_of
 from sim.serve.page.runs import KEYS
+from sim.setup.making import OR_NONE_MM
 from sim.setup.part import OFFSET_MM
-from sim.setup.program_section import OR_NONE_MM
 
 EMPTY = dict.fromkeys((*KEYS, "drawing_file"), "")
 

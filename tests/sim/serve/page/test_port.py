@@ -10,6 +10,7 @@ from sim.serve.page import served
 from sim.serve.page.served import PortError
 
 
+@pytest.mark.deeper
 @pytest.mark.skipif(sys.platform == "win32", reason="there old connections do not hinder")
 def test_a_port_can_be_had_at_once_after_its_server_has_ended() -> None:
     with opened_page() as first:
