@@ -91,15 +91,15 @@ def run_task(task: Task) -> Done:
         with _BY_ITSELF, scratch() as folder:
             return _run(task, folder)
     except ProgramError as error:
-        row = Row("refused", task.scenario.title, error.in_both(), counted((*error.others, error.finding)))
+        row = Row("refused", task.scenario.titles, error.in_both(), counted((*error.others, error.finding)))
         return Done(row, {})
     except DrycutError as error:
-        return Done(Row("refused", task.scenario.title, error.in_both()), {})
+        return Done(Row("refused", task.scenario.titles, error.in_both()), {})
     except Exception:
-        return fault_of(task.scenario.title, traceback.format_exc())
+        return fault_of(task.scenario.titles, traceback.format_exc())
 
 
-def fault_of(title: str, told_text: str) -> Done:
+def fault_of(title: Bilingual, told_text: str) -> Done:
     """A program at which drycut itself failed; the last line of what is told stands in its row."""
     return Done(Row("fault", title, same(told_text.strip().splitlines()[-1])), {}, told_text)
 
@@ -137,7 +137,7 @@ def _row(run: DryRun) -> Row:
     """The row of a run, its figures those of ``report.json``."""
     return Row(
         verdict(run.findings),
-        run.scenario.title,
+        run.scenario.titles,
         findings=counted(run.findings),
         time_s=rounded(run.ran_s),
         max_um=rounded(run.deviations.wire.max_um),
@@ -185,7 +185,8 @@ def row_of_last_run(folder: Path, digest: str) -> Row | None:
             return None
         row = record["row"]
         findings = tuple(Count(code, Severity(severity), n) for code, severity, n in row["findings"])
-        return Row(**{**row, "findings": findings, "message": Bilingual(*row["message"])})
+        said = {name: Bilingual(*row[name]) for name in ("title", "message")}
+        return Row(**{**row, "findings": findings, **said})
     except (FileUnreadableError, OSError, ValueError, LookupError, TypeError, AttributeError, RecursionError):
         return None
 
@@ -323,5 +324,5 @@ def _task(program: ShopProgram, language: Language) -> Task | None:
     return Task(printable(scenario.program.name), source.data, scenario, drawing, made_by(), language, source.is_made)
 
 
-def _title(program: ShopProgram) -> str:
-    return program.scenario.title if program.scenario is not None else printable(Path(program.file).name)
+def _title(program: ShopProgram) -> Bilingual:
+    return program.scenario.titles if program.scenario is not None else same(printable(Path(program.file).name))

@@ -25,7 +25,7 @@ class Row(NamedTuple):
         That of its report; ``refused`` where it, its scenario or its drawing cannot be read or run, ``fault`` where
         drycut itself failed.
     title
-        Title of its scenario; of a program alone, its file name.
+        Title of its scenario in both languages; of a program alone, its file name.
     message
         Why there is no report; empty where there is one. Only findings are told in Chinese as well.
     findings
@@ -41,7 +41,7 @@ class Row(NamedTuple):
     """
 
     verdict: str
-    title: str
+    title: Bilingual
     message: Bilingual = _NONE
     findings: tuple[Count, ...] = ()
     time_s: float | None = None
@@ -102,7 +102,8 @@ def _program(entry: Entry) -> IndexRowEntry:
     row = entry.row
     return {
         "file": entry.file,
-        "title": row.title,
+        "title": row.title.en,
+        "title_zh": row.title.zh if row.title.zh != row.title.en else None,
         "verdict": row.verdict,
         "to_check": row.to_check,
         "message": row.message.en or None,

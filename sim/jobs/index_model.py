@@ -45,6 +45,7 @@ class IndexRowEntry(TypedDict):
 
     file: Text
     title: str
+    title_zh: str | None
     verdict: Annotated[str, one_of("pass", "fail", "refused", "fault")]
     to_check: bool
     message: str | None

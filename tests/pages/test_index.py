@@ -7,6 +7,7 @@ from page_checks import complaints
 
 from sim.jobs.index import Row, build_index
 from sim.show.index_page import BesideTheIndex, index_page
+from sim.show.texts.phrases import same
 
 
 @pytest.mark.parametrize(("lang", "dark"), [("en", True), ("zh", False)])
@@ -55,13 +56,22 @@ def test_links_lead_to_the_files_of_each_program(open_page: OpenPage) -> None:
 
 
 def test_the_replay_stands_below_the_name_also_where_a_program_has_no_title(open_page: OpenPage) -> None:
-    alone = entry(0)._replace(row=Row("pass", "part-0000.3b", time_s=60.0, max_um=0.5, picture=SQUARE))
+    alone = entry(0)._replace(row=Row("pass", same("part-0000.3b"), time_s=60.0, max_um=0.5, picture=SQUARE))
     shown = open_page(index_page(build_index([alone]), [BesideTheIndex(SQUARE, alone.row.message)])).page
     assert shown.locator("tbody .title").count() == 0
     name, replay = (shown.locator(f"tbody a.{each}").bounding_box() for each in ("file", "replay"))
     assert name is not None
     assert replay is not None
     assert replay["y"] >= name["y"] + name["height"]
+
+
+def test_a_title_is_shown_in_the_language_of_the_page_and_found_in_both(open_page: OpenPage) -> None:
+    shown = open_page(shop_page(4)).page
+    assert shown.locator("tbody tr").count() == 4
+    shown.fill("#search", "零件")
+    assert sorted(shown.locator("tbody .title").all_inner_texts()) == ["Part 0", "Part 1", "Part 2"]
+    shown.click(".language")
+    assert sorted(shown.locator("tbody .title").all_inner_texts()) == ["零件 0", "零件 1", "零件 2"]
 
 
 def test_a_change_of_language_keeps_what_was_asked(open_page: OpenPage) -> None:

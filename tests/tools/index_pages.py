@@ -5,6 +5,7 @@ from parser.findings.codes import Severity
 from parser.findings.findings import Count
 from sim.jobs.index import Entry, Row, build_index
 from sim.show.index_page import BesideTheIndex, index_page
+from sim.show.texts.phrases import same
 
 THIN = Count("3B405", Severity.WARNING, 1)
 SQUARE = "M20,20l50,0 0,40 -50,0 0,-40"
@@ -16,8 +17,14 @@ def entry(number: int) -> Entry:
     if number % 4 == 3:
         message = Bilingual(f"no block in part {number}", f"第 {number} 个文件没有程序段")
         found = (Count("3B100", Severity.ERROR, 1),)
-        return Entry(file, None, Row("refused", f"part-{number:04}.3b", message, found), from_cache=False)
-    row = Row("pass", f"Part {number}", time_s=60.0 + number, max_um=number % 7 + 0.5, picture=SQUARE)
+        return Entry(file, None, Row("refused", same(f"part-{number:04}.3b"), message, found), from_cache=False)
+    row = Row(
+        "pass",
+        Bilingual(f"Part {number}", f"零件 {number}"),
+        time_s=60.0 + number,
+        max_um=number % 7 + 0.5,
+        picture=SQUARE,
+    )
     if number % 4 == 2:
         row = row._replace(
             verdict="fail", drawing_um=87.25, findings=(Count("3B301", Severity.ERROR, number + 1), THIN)

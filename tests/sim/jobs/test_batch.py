@@ -73,6 +73,18 @@ def test_files_are_those_of_each_program_alone_and_figures_those_of_its_report(t
 
 
 @pytest.mark.usefixtures("quick")
+def test_a_title_in_chinese_stands_in_the_index_also_when_it_is_from_the_last_run(shop: Path, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    (shop / "scenario.toml").write_text('program = "00.3b"\ntitle = "Die"\ntitle_zh = "凹模"\n', "utf-8")
+    for is_cached in (False, True):
+        found = {row["file"]: row for row in run_folder(shop, out).document["programs"]}
+        die = next(row for row in found.values() if row["title"] == "Die")
+        assert (die["title_zh"], die["from_cache"]) == ("凹模", is_cached)
+        assert all(row["title_zh"] is None for row in found.values() if row is not die)
+    assert complaints(out) == []
+
+
+@pytest.mark.usefixtures("quick")
 def test_what_has_not_changed_is_taken_from_the_last_run(shop: Path, tmp_path: Path) -> None:
     out = tmp_path / "out"
     run_folder(shop, out)

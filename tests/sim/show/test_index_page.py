@@ -17,22 +17,23 @@ from sim.jobs.index import Entry, Row, build_index, index_text
 from sim.show import index_page as room
 from sim.show.index_page import BesideTheIndex, index_page
 from sim.show.index_page.page import HEIGHT, WIDTH, thumbnail
+from sim.show.texts.phrases import same
 
 FAILS = (Count("3B301", Severity.ERROR, 2), Count("3B405", Severity.WARNING, 1))
 
 ASSETS = Path(room.__file__).with_name("assets")
 HOSTILE = "</script><img src=x onerror=alert(1)>"
 ROWS = [
-    Row("pass", "a.3b", time_s=61.5, max_um=1.25, picture="M1,1l2,0"),
+    Row("pass", same("a.3b"), time_s=61.5, max_um=1.25, picture="M1,1l2,0"),
     Row(
         "fail",
-        "Die",
+        Bilingual("Die", "凹模"),
         findings=FAILS,
         time_s=3600.0,
         max_um=0.5,
         picture="M1,1l0,2",
     ),
-    Row("refused", HOSTILE, Bilingual("no program", "没有程序"), findings=(Count("3B100", Severity.ERROR, 1),)),
+    Row("refused", same(HOSTILE), Bilingual("no program", "没有程序"), findings=(Count("3B100", Severity.ERROR, 1),)),
 ]
 ENTRIES = [
     Entry("shop/a.3b", "a.3b", ROWS[0], from_cache=True),

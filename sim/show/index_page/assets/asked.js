@@ -18,11 +18,12 @@ const WEIGHT = { error: 1e8, warning: 1e4, note: 1 };
 
 /**
  * What of a program is searched.
- * @param {Listed} program
+ * @param {Listed & { title_zh?: string | null }} program
  */
 export function searched(program) {
   const codes = program.findings.map((found) => found.code);
-  return [program.file, program.title, ...Object.values(program.message ?? {}), ...codes].join("\n").toLowerCase();
+  const titles = [program.title, program.title_zh ?? ""];
+  return [program.file, ...titles, ...Object.values(program.message ?? {}), ...codes].join("\n").toLowerCase();
 }
 
 /**

@@ -18,6 +18,7 @@ import { element } from "../../html/assets/elements.js";
  * @typedef {object} Program
  * @property {string} file
  * @property {string} title
+ * @property {string | null} title_zh in Chinese, where that is another one
  * @property {Verdict} verdict
  * @property {Said | null} message why there is no report
  * @property {Found[]} findings the worst first

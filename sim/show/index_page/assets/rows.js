@@ -66,7 +66,8 @@ function named(program) {
   const folder = make("span", { className: "folder" }, program.file.slice(0, last));
   const name = [folder, make("span", { className: "name" }, program.file.slice(last))];
   const told = program.message ? [make("span", { className: "message" }, ...both(program.message))] : [];
-  const titled = program.file.endsWith(program.title) ? [] : [make("span", { className: "title" }, program.title)];
+  const title = both({ en: program.title, zh: program.title_zh ?? program.title });
+  const titled = program.file.endsWith(program.title) ? [] : [make("span", { className: "title" }, ...title)];
   if (program.folder === null) return [make("span", { className: "file" }, ...name), ...titled, ...told];
   const there = program.folder.split("/").map(encodeURIComponent).join("/");
   const replay = make("a", { className: "replay", href: `${there}/replay.html` }, ...both(said("replay")));
