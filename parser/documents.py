@@ -4,8 +4,6 @@ Types of the fields of documents: what a value may be, and the limits that a JSO
 
 A document is a `TypedDict`, so that mypy holds what is written against the model. Lengths are µm, times s, angles
 degrees, unless the name of a field says otherwise.
-
-JSON schemas of documents, made of their models.
 """
 
 import types

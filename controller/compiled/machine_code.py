@@ -5,8 +5,6 @@ Where machine code stays on disk: an entry each, sealed by its digest.
 An entry that is cut off, damaged or of another machine counts as none; one that cannot be written is done without. So
 no fault of the disk ends a command.
 
-Machine code of loops: how it is loaded, and how it is called.
-
 The code is an object file in memory, which LLVM links into the process. It is called as numba calls it within its own
 code (`numba.core.callconv.CPUCallConv`): a status comes back; what the loop gives is written where the first argument
 points, and the second would point to an exception. Then come the arguments, taken apart: of a tuple its fields, of an

@@ -6,8 +6,6 @@ Things that hang together, directly or through others.
 
 All curves that lie at the offset from a block or a corner, wherever a part of the true offset may run.
 
-The true offset: loops on which the wire's centre comes as near to a contour as it can without cutting into it.
-
 Slices put together, end to end, into loops.
 """
 

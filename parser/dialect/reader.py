@@ -1,7 +1,5 @@
 """A reader: what it is told beside a text, what it makes of it, and what it says of it, whatever the dialect.
 
-A reader: what it makes of the text of a program, and what it says of it, whatever the dialect.
-
 What is told of a program besides its text, whatever the dialect: marks, family, unit and offset registers.
 
 Findings at blocks: the place is that of the field which is wrong.

@@ -4,8 +4,6 @@ Forms and splines seen from above, as lines and arcs in µm; the border type is 
 
 Placed forms and splines to lines and arcs in the plane: circles stay arcs, ellipses and splines become lines.
 
-Splines where a drawing places them, as lines or arcs in the plane.
-
 B-splines to polylines that lie no farther off them than a tolerance.
 """
 

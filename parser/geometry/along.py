@@ -1,7 +1,5 @@
 """Along lines and arcs: places by the share of them or by length, and directions there.
 
-Places on lines and arcs, by the share of them or the length along them, and directions there.
-
 Where a depth is largest along lines and arcs, for depths that change no faster than one goes along them.
 
 Directions of travel along blocks, as unit vectors; (0, 0) along a block of length 0.

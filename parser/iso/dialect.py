@@ -1,8 +1,6 @@
 """The reader of ISO: text to listing, its family, the rows that it moves, and all that is wrong with it.
 
 The reader of ISO, as the door of the parser asks for it.
-
-A text of ISO, read: text to listing, its family, the rows that it moves, and all that is wrong with it.
 """
 
 import re

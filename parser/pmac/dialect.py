@@ -1,8 +1,6 @@
 """The reader of PMAC motion programs: text to lines, the path that they make, and all that is wrong with it.
 
 The reader of PMAC motion programs, as the door of the parser asks for it.
-
-A text of PMAC motion programs, read: text to lines, the path that they make, and all that is wrong with it.
 """
 
 import math

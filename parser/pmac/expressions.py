@@ -1,7 +1,5 @@
 """Sums and conditions of motion programs, as functions of the values that the variables of a card have.
 
-Sums and conditions of motion programs: text to functions of the values that the variables have.
-
 Operators, functions and their order are those of Turbo PMAC (Software Reference Manual, "Mathematical features"):
 ``* / % &`` before ``+ - | ^``, of equal rank from left to right; in conditions ``AND`` before ``OR``. Power PMAC's
 ``== <= >= && ||`` are read too.

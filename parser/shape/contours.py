@@ -1,7 +1,5 @@
 """Contours of a toolpath: runs of cut blocks, and how well they close, exact and stepped.
 
-Contours of a toolpath: runs of cut blocks, how well they close, exact and stepped.
-
 When a path is closed: how near its end may lie to its start, and at which of its corners it may end.
 """
 

@@ -1,7 +1,5 @@
 """The closed loops of a contour, behind its lead-in, and which side of them the part lies on.
 
-The closed loop of a contour, behind its lead-in, and which side of it the part lies on.
-
 Loops of contours that close more than one: by their corners, and where these miss, by the places that they pass.
 
 Where a path comes back to a place that it left: the loops that it closes, one behind the other.

@@ -3,7 +3,7 @@
 So do the CAMs (docs/3b.md §1). The controller's own chain, from stepped end to stepped end, is in
 `controller.stepping.steps`.
 
-One arc told and decoded in plain numbers: to the last bit what `rules` and `moves` give (tests hold it so).
+One arc told and decoded in plain numbers: to the last bit what `words` gives (tests hold it so).
 
 Where each block begins at the decoded end of the last, arcs are told one after the other; an array for every number of
 one arc would take thirty times as long.
@@ -78,7 +78,7 @@ def line_of(by_um: Place) -> OneBlock:
 
 
 def to_bisector(start: Place, end: Place, by: Place, sweep_rad: float) -> Place:
-    """The way of a centre along the chord to where start and end are equally far from it, as in `rules`."""
+    """The way of a centre along the chord to where start and end are equally far from it, as in `words`."""
     square = by[0] * by[0] + by[1] * by[1]
     if square == 0.0 or abs(sweep_rad) >= MOST_SWEEP_RAD:
         return 0.0, 0.0

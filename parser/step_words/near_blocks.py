@@ -58,7 +58,7 @@ class Revisits(NamedTuple):
 
 
 def revisits(curves: Curves, counted: Ints, radii: Ints) -> Revisits:
-    """The places of a path of one row or more; `counted` and `radii` as in `looked_at`."""
+    """The places of a path of one row or more; `counted` and `radii` as in `LookedAt`."""
     number = _numbered(np.concatenate([curves.start_um[:1], curves.end_um]))
     _, first, inverse = np.unique(number, return_index=True, return_inverse=True)
     since = first[inverse][1:]  # so many rows end before the path comes to the place of a row for the first time

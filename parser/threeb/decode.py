@@ -1,7 +1,5 @@
 """Records to toolpath: exact geometry of every block at once, start nodes, and lines that run in the air.
 
-Records to toolpath: exact geometry of every block at once, chained from end to start.
-
 "Exact" is what the CAM prints: no steps, the radius unrounded, the count length J deciding where a block ends.
 
 Figures of a program: start nodes become rows, and the lines that run in the air between two figures become jumps.

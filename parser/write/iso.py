@@ -1,7 +1,5 @@
 """A draft as ISO, in the way of any dialect that has a profile, and what may be chosen of that way.
 
-A draft as ISO, in the way of any dialect that has a profile.
-
 The words of compensation in an ISO text: sides, registers and their values, by the rows of a draft.
 
 How ISO is to be written: a profile, the habits of its family, and what is chosen otherwise.

@@ -1,7 +1,5 @@
 """The check of a file, whatever it holds, and its text with all that is certain mended.
 
-The check of a file, whatever it holds.
-
 A text as it is typed, read and checked with the settings that count for its file; it may hold no program yet.
 
 The text of a program with all that is certain mended; nothing else in it changes.

@@ -1,7 +1,5 @@
 """Findings about passes over one edge: offsets, what they leave, the tab, and where one does not follow the others.
 
-Findings about passes over one edge: their offsets, what they leave, and the tab that nothing cuts.
-
 All is measured from path to path. Which of them is the right one the program does not tell; that a later pass comes
 nearer to the part, and that none comes nearer than the last, it does.
 

@@ -1,9 +1,4 @@
-"""All checks of one program, those of its path among them, and how far each came.
-
-The checks that look at the path of a program, and how far each came.
-
-All checks of one program, and how far each came.
-"""
+"""All checks of one program, those of its path among them, and how far each came."""
 
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple

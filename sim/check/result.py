@@ -2,8 +2,6 @@
 
 What a program says that is to be cut, before any offset: counts of its blocks, length, box, first and last place.
 
-What a check of one program says: its findings, and how far the check came.
-
 Fingerprints: by what a finding is known again when its program was changed elsewhere.
 """
 

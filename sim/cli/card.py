@@ -1,9 +1,4 @@
-"""``drycut card``, and the work behind ``drycut card run``.
-
-``drycut card``.
-
-The work behind ``drycut card run``.
-"""
+"""``drycut card``, and the work behind ``drycut card run``."""
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager

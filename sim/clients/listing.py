@@ -1,8 +1,6 @@
 """A session as a text to read, and made again on a card: the way that it drove, when it stood, what stopped it.
 
 A session as a text to read, a line for each event, and as a program whose blocks are the calls that moved.
-
-A session made again on a card: the way that it drove, when it stood, and where a limit stopped it.
 """
 
 import math

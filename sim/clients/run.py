@@ -7,8 +7,6 @@ would tell of lost steps that no machine loses.
 
 ``card`` of ``report.json``: what a program asked of the card, how it ended, and what it did not look at.
 
-A session as a dry run: the table follows the pulses that the calls made.
-
 What came of a program for the card.
 """
 

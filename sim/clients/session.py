@@ -1,7 +1,5 @@
 """A program started against the card's library, how it ended, and its log as events.
 
-A program started against the card's library, and how it ended.
-
 The log of a program's card as events: what it told the card, and in one event all that it asked until the next.
 
 A program asks thousands of times whether the axes have come to rest; what it asks changes nothing.

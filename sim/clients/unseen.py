@@ -1,7 +1,5 @@
 """What a program did not look at: refused calls, moves that ended on a limit, sleeps too short; and findings on it.
 
-What a program did not look at: calls that were refused, moves that ended on a limit, sleeps that were too short.
-
 A log does not show whether a program looked at what a call returned. It shows what the program did next: after a
 refusal one that looked makes the call again, asks `GT_GetCmdSts`, stops, clears, or ends. After a limit it asks for the
 status of the axis, or clears it, before it moves again. What it did otherwise is told, and nothing else.

@@ -1,7 +1,5 @@
 """Regions that a cut makes: union and difference for every input, and outlines with fewer corners for who tells them.
 
-Union and difference of regions that come out for every input that a cut makes.
-
 GEOS nodes edges at full precision. Where kerfs of several passes abut or nearly coincide, rounding may put a node on
 the wrong side of an edge, and GEOS gives up. Then the same is done once more on a grid, with outlines that do not cross
 themselves: each corner moves by half a cell at most, and no rounding is left to go wrong (J. D. Hobby, Computational

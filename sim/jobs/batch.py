@@ -2,8 +2,6 @@
 
 One program of a shop, as a worker runs it: bytes come in and bytes go out, for the worker may be another machine.
 
-All programs of a shop, run one beside the other; what has not changed since the last run is taken from it.
-
 The files of a program's last run, kept in its folder with what they were made of; they serve as long as all fit.
 
 ``kept.json`` is one file of the set that stands in the folder: it has a digest of all that went into the run, digests

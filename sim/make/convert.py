@@ -1,7 +1,5 @@
 """A program checked, written in another language, read back, checked again and held against what it was written of.
 
-A written program held against what it was written of, block by block.
-
 Contours that the path of a wire leaves open, and its kerf closes.
 
 What a conversion loses, or writes otherwise, told before anybody misses it.

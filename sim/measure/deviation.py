@@ -1,7 +1,5 @@
 """Deviation: how far places of a trace lie from the ideal path, from which place that is measured, and its figures.
 
-How far places of a trace lie from the ideal path, and from which place on it that is measured.
-
 This is the one answer for all who tell of a deviation: the report, the pictures, the film and the replay.
 
 From which block is a place measured? A sample belongs to the block that its command is running. But table and wire

@@ -2,8 +2,6 @@
 
 What ends a run before its program is through: a servo that trips, or the end of the travel.
 
-The dry run: one program through controller, card and table, and what came of it.
-
 What a run took for granted, and what it did not look at: no run without a finding is to promise more than it can.
 """
 

@@ -1,8 +1,6 @@
 """Before anything moves: a program checked, and its offset, its own or one that the controller adds.
 
 The offset that a controller adds to a program on the drawing's contour: its path, and what cannot be cut so.
-
-Before anything moves: a program checked, and its offset: the one that it compensates by, or one that is added.
 """
 
 from collections.abc import Iterator, Sequence

@@ -1,7 +1,5 @@
 """A recorded run: the run and every step of it, which pictures, report and replay are made of; and its card's log.
 
-A recorded run: the run and every step of it, which pictures, report and replay are made of.
-
 The log of a run's card as a file, whole or not at all.
 """
 

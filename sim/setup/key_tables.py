@@ -3,8 +3,6 @@
 JSON schemas of scenario and machine files, for editors that complete and check TOML; made from the rows of keys.
 
 They hold each key by itself. What two keys say together, such as ``[offset]`` with ``[[pass]]``, is found by a run.
-
-The tables of keys in ``docs/scenarios.md`` and its Chinese twin, made from the keys and their words.
 """
 
 import math

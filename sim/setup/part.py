@@ -1,7 +1,5 @@
 """What is asked of the part and its work: an offset, a drawing to hold the cut against, thickness and outline.
 
-What is asked of the part: an offset that the controller is to add, and a drawing to hold the cut against.
-
 The work: its thickness, its density and its outline; and what a shop writes of it on the sheet of the job.
 """
 

@@ -1,7 +1,5 @@
 """Why no program is made of a drawing, and what a run took for granted, in words.
 
-Why no program is made of a drawing, in words.
-
 What a run took for granted, in words, for terminal and page.
 """
 

@@ -1,7 +1,5 @@
 """The table as bodies, the state of a slide between two ticks, and the force law of its drive.
 
-State of a slide between two ticks.
-
 The table as bodies in a pymunk space: a saddle on X guides carries a carriage on Y guides, with stops at their ends.
 
 The engine's lengths are µm, its masses kg. Its clock counts ticks, and a velocity is the way in a tick: so each axis

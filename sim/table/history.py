@@ -2,8 +2,6 @@
 
 Bins of time: the lowest, the highest and the mean value of each; their memory does not grow with the ticks.
 
-History: velocity, acceleration, lag, following error and force of each axis over the time of a whole run.
-
 Its memory does not grow with the ticks: time is cut into at most 2000 bins, and each bin keeps the lowest, the highest
 and the mean value of the ticks in it.
 

@@ -1,7 +1,5 @@
 """What the drives lose: steps that a stepper slips past, following errors at which a servo trips, and findings on it.
 
-What the drives lose: steps that a stepper slips past, the following error at which a servo trips.
-
 Peaks: the largest force, speed and lag of each axis, and how near they came to their limits.
 
 Findings on what the drives lost in a run: steps of a stepper, the following error that a servo tripped on.

@@ -1,7 +1,5 @@
 """One axis over a whole run, stretch by stretch of its pulses, in the compiled loop or in the reference.
 
-One axis over a whole run, stretch by stretch of its pulses.
-
 The reference: the same ticks in Python, with the table as bodies that pymunk moves; ``--engine pymunk``.
 
 It is some thousand times slower than the compiled loop, which tests hold against it.

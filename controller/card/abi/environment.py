@@ -1,7 +1,5 @@
 """What the environment asks of the library: the card and its settings, its log, and how fast its time passes.
 
-What the environment asks of the library: the card and its settings, its clock, its log.
-
 `DRYCUT_CARD` is a file of TOML with the keys of `CardSettings`, `DRYCUT_CALL_S` the time of a call in s, `DRYCUT_CLOCK`
 how many times as fast as the wall clock the card's is, or ``simulated``, `DRYCUT_CARD_LOG` the file of the log.
 

@@ -1,7 +1,5 @@
 """Functions of single axes: drives, limits, captures, positions, errors, encoders, and their status.
 
-Functions of single axes: drives, limits, captures, positions, errors, encoders.
-
 Status of axes and their switches. Levels are those of the inputs, which no sense turns (`wiring`).
 
 Inputs and outputs that act at once: 16 of each, active low, bit numbers from 0; an open input reads 1.

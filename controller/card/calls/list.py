@@ -1,7 +1,5 @@
 """Functions that open, fill, run, stop and resume the list, apart from the path itself.
 
-Functions that open, fill and run the list, apart from the path itself.
-
 Functions that stop and resume, and tell where the motion is.
 """
 

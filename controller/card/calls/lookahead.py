@@ -1,14 +1,12 @@
 """The look-ahead of the library, in both forms: end speeds told to the program, and a mode of path calls.
 
-Look-ahead of the library that tells the program the end speeds of its blocks.
-
 All of it is grade C. ``T`` is the time in which a corner is turned, ms: there the velocity may change by ``amax T``.
 `amax` also bends arcs, `am` is the acceleration along the path (both pulse/ms²), `vmax` and `F` are pulse/ms. `n`
 blocks are kept at most, and coordinates are in units of `con` pulses.
 
 The look-ahead mode of the library: path calls go through the look-ahead into the list (grade C, as all of it).
 
-For the meaning of the numbers see `host_lookahead`; coordinates are in units of `con` pulses from the axis' zero.
+For the meaning of the numbers see above; coordinates are in units of `con` pulses from the axis' zero.
 
 Path calls through the look-ahead. `F` is the feed of the block in pulse/ms; after a block with `dccFlag` it rests.
 

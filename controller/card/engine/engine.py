@@ -3,12 +3,12 @@
 It is made of three: the list (`MotionList`), the clock with the state and the pulses (`CardMotion`), and what leads the
 motion from state to state as time passes (`Sequencer`).
 
-The list (`motion_list`) holds entries (`entries`): lines, arcs, stepped blocks, waits, outputs. What runs is a
-`Stretch`: the entries from the front of the list that one interpolator runs without rest in between, made into a path,
-its limits and a plan from where the axes are. Nothing is stepped through time: place, speed and pulses at any instant
-follow from the plan, and the engine only wakes where something happens (`events`): an output is due, a switch is met,
-the stretch ends, or entries pushed meanwhile have to be taken into the plan. They change nothing before the plan begins
-to brake for its end, so the list is planned anew only then.
+The list holds entries (`entries`): lines, arcs, stepped blocks, waits, outputs. What runs is a `Stretch`: the entries
+from the front of the list that one interpolator runs without rest in between, made into a path, its limits and a plan
+from where the axes are. Nothing is stepped through time: place, speed and pulses at any instant follow from the plan,
+and the engine only wakes where something happens (`events`): an output is due, a switch is met, the stretch ends, or
+entries pushed meanwhile have to be taken into the plan. They change nothing before the plan begins to brake for its
+end, so the list is planned anew only then.
 
 Whatever changes the motion (a stop, an override, entries behind) cuts the stretch where it is and makes a new one of
 what is left, from the same place, speed and pulses: so none is lost.

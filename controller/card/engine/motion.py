@@ -1,7 +1,5 @@
 """The motion of one card at any instant: its clock, its states, and the pulses that have gone out.
 
-The motion of one card at any instant: its clock, its state, and the pulses that have gone out.
-
 The states of one card's motion, and what becomes of one by a stop, an end, a list opened afresh.
 
 ==========  =================  ===============================================================
@@ -164,7 +162,7 @@ class CardMotion:
     now_s
         The card's clock.
     state
-        What the axes do; see `states`.
+        What the axes do; see its states above.
     break_place
         Where the motion came to rest when it was last stopped; while something is broken, the place of that.
     at_um

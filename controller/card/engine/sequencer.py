@@ -1,6 +1,6 @@
 """From state to state as time passes: a motion sets off, is planned anew, brakes, ends.
 
-Each way from one state of `states` to another stands here in one method, but for those that a call takes while the axes
+Each way from one state of `motion` to another stands here in one method, but for those that a call takes while the axes
 rest (`engine`).
 """
 

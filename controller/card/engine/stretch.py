@@ -1,7 +1,5 @@
 """A stretch: entries that one interpolator runs, with their path, limits, plan and pulses, and how it is made.
 
-A stretch: entries that one interpolator runs, with their path, limits, plan and pulses.
-
 Stretches are made: entries to path, limits, plan, and what hands out the pulses.
 
 Rows: entries that move as columns, their path and what limits them.

@@ -7,8 +7,6 @@ minor are conjugate half-axes. A map moves the centre and turns and stretches th
 
 Where an entity is, of whatever kind, so that people find it in the drawing.
 
-DXF entities to forms, each in the coordinates that its file gives it in.
-
 The numbers of a SPLINE, looked at before a curve is made of them: what is wrong with one is said.
 """
 

@@ -1,7 +1,5 @@
 """Mends: blocks with one field written otherwise, or solved for, so that they end at a wanted place.
 
-Mends: blocks with one field written otherwise, so that they end at a wanted place.
-
 Words stand here as an (n, 6) int64 table, one row a block, in the order of the columns of `StepWords`.
 
 One number of a block solved for: the X, Y or count length J with which it ends at a wanted place.

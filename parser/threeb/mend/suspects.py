@@ -1,7 +1,5 @@
 """Suspects: the one block or word that, written otherwise, would end a contour or itself where it was to end.
 
-Suspects: the one block, or the one word, that would end a contour where it was to end if it were written otherwise.
-
 Suspects: the one block that would close an open contour if one of its fields were written otherwise.
 
 All that follows the mended block shifts with its end, so a mend closes the contour if it makes up for the gap. Of those

@@ -1,7 +1,5 @@
 """A settings file, read strictly: ``drycut.toml``, or ``[tool.drycut]`` of ``pyproject.toml``; and its JSON schema.
 
-A settings file, read strictly: ``drycut.toml``, or ``[tool.drycut]`` of ``pyproject.toml``.
-
 Patterns for paths, with the meaning that they have in the settings of ruff: ``*`` goes past slashes.
 
 A pattern is held against the name of a file or folder alone, and against its path below the folder of the pattern.

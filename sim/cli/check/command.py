@@ -1,9 +1,4 @@
-"""``drycut check``, with its options in the groups in which its help lists them.
-
-``drycut check``.
-
-Options of ``drycut check``, in the groups in which its help lists them.
-"""
+"""``drycut check``, with its options in the groups in which its help lists them."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The jobs of a check: its files, each with the settings that count for it; shown where that is asked for.
 
-The jobs of a check: its files, each with the settings that count for it.
-
 What a check would look at, and with which settings: ``--show-files`` and ``--show-settings``.
 
 Both print plain text for people and shells; no program is read.

@@ -1,19 +1,16 @@
 """Stars and bands: the union of the discs about the places of one stretch of the wire's way, as a polygon.
 
-Stars: the union of the discs about the places of one stretch of the wire's way, as a polygon.
-
-Seen from the middle of the stretch, a ray along the unit vector u leaves the disc of radius r about a place p at
-p·u + √(r² − (p×u)²). The star ends at the farthest of these. Then corners are left out that lie within 0.01 µm of
+A star is seen from the middle of its stretch: a ray along the unit vector u leaves the disc of radius r about a place p
+at p·u + √(r² − (p×u)²). The star ends at the farthest of these. Then corners are left out that lie within 0.01 µm of
 the border without them (D. H. Douglas, T. K. Peucker, Cartographica 10 (1973) 112). A star stays one: its corners stay
 in the order of their rays.
 
-Bands: the union of the discs about the places of a straight stretch of the wire's way, as a polygon.
-
-Across the way, every line through the union meets it in one piece: where the places lie so nearly on a line that each
-disc overlaps the next on every such line, it runs from the lowest border of the discs that it meets to the highest. A
-disc of radius r about a place (u, v) along and across the way reaches from v − √(r² − (s − u)²) to v + √(…) at s. So a
-band is known in closed form, as a star is, and may be as long as the way is straight: a straight block of 30 mm takes
-some ten bands where it takes 160 stars, and the union of few regions is made in a tenth of the time.
+A band is one of a straight stretch. Across the way, every line through the union meets it in one piece: where the
+places lie so nearly on a line that each disc overlaps the next on every such line, it runs from the lowest border of
+the discs that it meets to the highest. A disc of radius r about a place (u, v) along and across the way reaches from v
+− √(r² − (s − u)²) to v + √(…) at s. So a band is known in closed form, as a star is, and may be as long as the way is
+straight: a straight block of 30 mm takes some ten bands where it takes 160 stars, and the union of few regions is made
+in a tenth of the time.
 
 At its ends, two discs side by side leave a notch that a band fills: of places no farther apart than 2 µm across the way
 it is (1 µm)² / 2r deep, 0.005 µm of a wire that cuts 0.2 mm wide.

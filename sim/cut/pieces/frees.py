@@ -1,7 +1,5 @@
 """When pieces come free: the first place of the wire at which their kerf parts them from the frame.
 
-When a piece comes free: the first place of the wire at which its kerf parts it from the frame.
-
 Whether a piece is parted is asked in a box round it, with the kerf that lies there. What the kerf closes in within the
 box is free. What reaches the border of the box, or the frame, is not free as far as the box tells.
 

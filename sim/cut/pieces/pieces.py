@@ -1,7 +1,5 @@
 """The pieces that the kerf leaves: what each is, which contour frees it and when, what held it, what is wrong there.
 
-The pieces that the kerf leaves: what each is, which contour frees it and when, and what held it last.
-
 Findings on what a cut leaves: pieces that come free before their cut is done, and a kerf that stays unknown.
 """
 

@@ -1,8 +1,6 @@
 """Loops of a drawing as contours that close to the last bit, and how they lie within each other.
 
 Loops of a drawing as contours that close to the last bit: each curve starts where the one before it ends.
-
-How contours lie within each other.
 """
 
 from collections.abc import Iterator

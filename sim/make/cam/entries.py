@@ -2,8 +2,6 @@
 
 Places where the wire may come to a contour: middles of its curves, places across from a point, its corners.
 
-Thread points chosen in the waste.
-
 Thread points that lie apart: where one start hole is, there is no room for another one.
 """
 

@@ -2,8 +2,6 @@
 
 The room between contours: how far places and ways in it are from all of them.
 
-Leads: from the thread point to where a pass begins, and from where it ends back.
-
 Forms of a lead-in, each from a thread point straight across from where the pass begins.
 
 A straight one, and with an arc at its end: a quarter circle, or a longer arc into which the line runs smoothly. All of

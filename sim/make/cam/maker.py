@@ -1,7 +1,5 @@
 """A drawing to a proved program: `made_program`, the one way in, and what is asked of its text.
 
-A drawing to a proved program: `made_program`, the one way in.
-
 How near arcs are fitted to what is drawn, so that the written path keeps its tolerance with few of them.
 
 A made program with remarks in its header: what speaks against one that is written all the same.

@@ -1,7 +1,5 @@
 """What is to be cut: figures, how the wire comes to them, the passes over them, on which side and which way round.
 
-What is to be cut: figures of a drawing, how the wire comes to them, and the passes over them.
-
 On which side of each contour the wire runs, and which way round.
 """
 

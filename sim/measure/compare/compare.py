@@ -1,7 +1,5 @@
 """Lay a drawing on a cut edge, or on a program's, measure both ways, and name what is wrong as a whole.
 
-Lay a drawing on a cut edge, measure both ways, and name what is wrong as a whole.
-
 Slips of units: a program is too large or too small, by the ratio of two units, such as inch and millimetre.
 
 On which side of a curve the part lies, of the edge and of the drawing beside it.

@@ -1,7 +1,5 @@
 """The motion that lays a cut edge on a drawing: steps of least squares, by those contours that agree.
 
-Steps of least squares that lay a cut edge on a drawing.
-
 A step is that of Gauss and Newton for distances across the nearest curve, which may slide along it (Y. Chen and G.
 Medioni, Object modelling by registration of multiple range images, 1991). What the shape does not determine, such as
 the turn of a circle, stays as it is.

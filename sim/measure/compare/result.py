@@ -2,8 +2,6 @@
 
 The cut edge: where the part ends once the program is cut, curve by curve with the blocks that make it.
 
-What a comparison of a cut edge with a drawing says.
-
 The strips between the edge of a cut and its drawing, where they lie farther apart than is allowed.
 """
 

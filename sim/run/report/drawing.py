@@ -1,9 +1,4 @@
-"""A comparison as data, schema ``drycut.compare/1``, with its model (docs/compare.md); what is said of it is English.
-
-Model of ``drycut.compare/1``, and of ``drawing`` of the report (docs/compare.md).
-
-A comparison as data, schema ``drycut.compare/1`` (docs/compare.md); what is said of it is in English.
-"""
+"""A comparison as data, schema ``drycut.compare/1``, with its model (docs/compare.md); said in English."""
 
 import json
 from collections.abc import Sequence

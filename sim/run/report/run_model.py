@@ -1,8 +1,6 @@
 """Models of the parts of the report on how the program ran, and what a program in C asked (docs/report.md).
 
 Model of ``card`` of the report: what a program in C asked of the card (docs/libges.md).
-
-Model of the parts of the report on how the program ran (docs/report.md).
 """
 
 from typing import Annotated, TypedDict

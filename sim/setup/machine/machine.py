@@ -5,8 +5,6 @@ The sections of a machine file: ``[table]`` and ``[motor]``, what is moved and r
 The ``[table]`` and ``[motor]`` sections of a machine file: what is moved, what moves it, and what resists.
 
 The ``[controller]`` section of a machine file: limits of motion, the rule at junctions, and the interpolator.
-
-Machine files: table, controller and cutting rates of one machine, read from TOML and written as it.
 """
 
 import math

@@ -1,7 +1,5 @@
 """Where things stand on a page: the plot's frame, its scale and ticks, block numbers and arrows.
 
-Where things stand on a page: the plot's frame, its scale and its ticks.
-
 Places for block numbers and arrows: none covers another one, nor a marker, and the path only where it must.
 """
 

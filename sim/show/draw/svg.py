@@ -1,8 +1,6 @@
 """Pictures as SVG, for documents and pages: lines stay lines at any size, and paths stay short.
 
 Lines as data of an SVG path: whole and half units, by differences, so that they stay short.
-
-Pictures as SVG, for documents and pages: lines stay lines at any size.
 """
 
 from collections.abc import Iterator, Sequence

@@ -2,8 +2,6 @@
 
 The plot of a frame: work, clamps and pieces, and the path over them, as it is before the wire and behind it.
 
-The plot of a run in one view, at any moment: the kerf in the tone of the pass that went over it last.
-
 Which pass went over each pixel of the plot last: worked out once for a view, as the map of the cut is.
 
 Where things stand on a frame: title, plot, read-outs and the strip of the run.

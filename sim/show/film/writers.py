@@ -1,7 +1,5 @@
 """Films of a run as files: animated pictures through pillow, mp4 through the encoder of imageio-ffmpeg.
 
-Films as files: animated pictures through pillow, mp4 through the encoder of imageio-ffmpeg.
-
 The clock of a film: which moment of the run each frame shows.
 
 Write a film of a run.

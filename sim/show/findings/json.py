@@ -1,9 +1,4 @@
-"""JSON of schema ``drycut.check/1``, with its model: docs/check.md and docs/check.schema.json.
-
-Model of ``drycut.check/1`` (docs/check.md).
-
-JSON of schema ``drycut.check/1``: docs/check.md and docs/check.schema.json.
-"""
+"""JSON of schema ``drycut.check/1``, with its model: docs/check.md and docs/check.schema.json."""
 
 import json
 from collections.abc import Iterable, Iterator

@@ -1,8 +1,6 @@
 """What formats for other programs share: sums over results, and values and places as files can hold them.
 
 Sums over the results that a format writes.
-
-Values and places of findings as files of other programs can hold them.
 """
 
 import math

@@ -1,8 +1,6 @@
 """Sentences of the formats in English and Chinese, and the choices that formats share.
 
 Sentences of the formats in English and Chinese; names of checks and reasons are terms of the catalogue.
-
-Choices that formats share.
 """
 
 from collections.abc import Iterable, Mapping, Sequence

@@ -1,9 +1,4 @@
-"""Questions about a block, its words and places as the quiz says them, and their answers, the wrong ones too.
-
-The block that a question is about: its words and places as the quiz says them.
-
-Questions about a block with their answers, the wrong ones too, worked out from what it is and does.
-"""
+"""Questions about a block, its words and places as the quiz says them, and their answers, the wrong ones too."""
 
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any, NamedTuple

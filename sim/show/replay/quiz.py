@@ -2,8 +2,6 @@
 
 Questions about a run as a whole, each asked before one of its blocks: side, offset, and where its fault is.
 
-The quiz of a replay: what its scenario asks, and sets of questions that any program answers.
-
 A question as a replay's document holds it, and those that a scenario asks.
 """
 

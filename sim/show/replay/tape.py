@@ -2,8 +2,6 @@
 
 Columns of curves alone, exact: pages draw by them what was run, and what never was.
 
-The tape of a replay: every step with its time, and the samples of table and wire, packed for the page.
-
 Each step is one byte: which way it goes. A staircase repeats itself, so a step takes about as long as the last step of
 the same way did: the tape has the difference, in ticks. Times are rounded to ticks since the start, so nothing adds
 up. The table is told by where it lies from its command, and the wire by where it lies from the table. For the deviation

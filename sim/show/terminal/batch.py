@@ -2,8 +2,6 @@
 
 The summary of a shop on the terminal.
 
-The table of a circular test on the terminal.
-
 A program for the card on the terminal: its calls, where the axes stand, what it did not look at, how it ended.
 """
 

@@ -2,8 +2,6 @@
 
 Colours on a terminal: which there are, and texts with them, told from escape sequences that a file holds.
 
-The one printer: every line that a command prints passes here, to stdout or to stderr, and is made harmless.
-
 `parser.text.encoding` has the rule. Text for people is shown without what is harmful in it; formats for machines keep
 their data, in escapes of their own. Our own colours go to terminals. What libraries print passes `Cleaned`.
 """

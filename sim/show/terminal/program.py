@@ -1,8 +1,6 @@
 """A program made of a drawing, on the terminal: its figures, what it left out, and its proof.
 
 The proof of a made program on the terminal: how far it is off, what was found, and the verdict.
-
-A program made of a drawing, on the terminal: its figures, what it left out and took for granted, and its proof.
 """
 
 from collections import defaultdict

@@ -1,7 +1,5 @@
 """The filled areas of pieces and of what is off the drawing, and what is stroked over them: kerf, path, wire, jumps.
 
-The filled areas of the pieces, and what is stroked over them: kerf, path, contour, the wire's way, jumps.
-
 The pieces that a cut frees, as filled areas, and what is written on them.
 
 What is stroked: the kerf, the path, the contour it is made from, where the wire was, and jumps.

@@ -1,7 +1,5 @@
 """Marks on the path: starts, pauses, ends, which way it runs; and findings as flags.
 
-Marks on the path: where it starts, pauses and ends, and which way it runs.
-
 Numbers of the blocks beside the path: none covers another, and where there are many, some stand for all.
 
 Findings as flags: a marker where each is, with its code, and those of one place as one.

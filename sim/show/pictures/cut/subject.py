@@ -1,7 +1,5 @@
 """What the picture of a cut shows, the page that it is drawn on, and what stands beside the path.
 
-What the picture of a cut shows, and the page that it is drawn on.
-
 The workpiece and what stands beside the path, as filled outlines under the kerf: the work plain, clamps hatched.
 """
 
