@@ -86,10 +86,21 @@ def check_options_of(values: dict[str, Any]) -> CheckOptions:
     return CheckOptions(lengths=taken_lengths(WIRE_LENGTHS.values(), values), **values)
 
 
+class Surroundings(NamedTuple):
+    """What settings say of the folder of a file, beside what the file is checked with: by keys, as TOML has it.
+
+    `by_options` are the keys that stand on the command line.
+    """
+
+    texts: Mapping[str, str]
+    by_options: frozenset[str]
+
+
 class Jobs(NamedTuple):
-    """A job for each file that names lead to, and the files of their folders that are passed over."""
+    """A job for each file that names lead to, its surroundings, and the files of folders that are passed over."""
 
     jobs: list[Job]
+    surroundings: list[Surroundings]
     passed_over: list[str]
 
 
@@ -105,7 +116,8 @@ def jobs_of(names: Sequence[str], options: CheckOptions) -> Jobs:
     making = _Making(options)
     found = find_files(names, making.file_filter)
     jobs = [making.job(name) for name in found.files]
-    return Jobs(jobs, [name for name in found.passed_over if not making.is_own(Path(name))])
+    surroundings = [making.surroundings(name) for name in found.files]
+    return Jobs(jobs, surroundings, [name for name in found.passed_over if not making.is_own(Path(name))])
 
 
 def filter_of(options: CheckOptions) -> FileFilter:
@@ -165,6 +177,29 @@ class _Making:
         if name == STDIN:
             return Job("<stdin>", read_stdin(), settings, known)
         return Job(name, Path(name), settings, known)
+
+    def surroundings(self, name: str) -> Surroundings:
+        """What settings and options say of the folder of a file."""
+        near, options = self._near(self._search.placed(Path(name))), self._asked
+        exclude = near.exclude if self._exclude is None else self._exclude
+        include = near.include if self._include is None else self._include
+        texts = {
+            "exclude": _toml(tuple(pattern.text for pattern in exclude)),
+            "include": _toml(tuple(pattern.text for pattern in include)),
+            "baseline": self._path(None if options.write_baseline else options.baseline or near.baseline),
+            "machines": self._path(near.machines),
+            "dialects": _toml(tuple(near.dialects)),
+        }
+        given = {"exclude": options.exclude, "include": options.include, "baseline": options.baseline}
+        return Surroundings(texts, frozenset(key for key, value in given.items() if value))
+
+    def _path(self, path: Path | None) -> str:
+        """A path as seen from the working folder, where it lies below that."""
+        if path is None:
+            return _toml(None)
+        placed = self._search.placed(path)
+        below = placed.is_relative_to(self._search.working)
+        return _toml((placed.relative_to(self._search.working) if below else placed).as_posix())
 
     def _dialect(self, near: SettingsFile) -> dict[str, Any]:
         """The dialect that the command line names, which settings may define."""
@@ -234,8 +269,15 @@ _FIELDS: Final = {
     "wire.diameter_mm": "wire_diameter_um",
     "wire.spark_gap_mm": "spark_gap_um",
 }
-"""Keys of settings in the order of docs/check.md, and the fields of `CheckSettings` that have their values."""
+"""Keys of settings, and the fields of `CheckSettings` that have their values."""
+_KEYS: Final = (
+    *("machine", "machines", "start_mm", "open", "select", "ignore", "per_file_ignores", "fail_on"),
+    *("exclude", "include", "baseline", "dialect", "dialects", "unit", "registers_mm", "end_marks", "pause_marks"),
+    *("wire.diameter_mm", "wire.spark_gap_mm"),
+)
+"""Keys of settings in the order in which they are shown."""
 _USUAL: Final = CheckSettings()
+_NO_VALUE: Final = "–"  # TOML cannot say it
 
 
 def passed_over_text(names: Sequence[str], language: Language) -> str:
@@ -262,8 +304,8 @@ def show_settings(found: Jobs, language: Language) -> None:
     Files with the same settings stand together.
     """
     alike: dict[tuple[str, ...], list[str]] = {}
-    for job in found.jobs:
-        alike.setdefault(tuple(_lines(job.settings, Words(language))), []).append(printable(job.name))
+    for job, around in zip(found.jobs, found.surroundings, strict=True):
+        alike.setdefault(tuple(_lines(job.settings, around, Words(language))), []).append(printable(job.name))
     for lines, (first, *others) in alike.items():
         key = "findings.settings-of-some" if others else "findings.settings-of"
         say(Words(language)(key, file=first, n=len(others)))
@@ -278,11 +320,16 @@ def _end(found: Jobs, language: Language) -> None:
         say(passed, err=True)
 
 
-def _lines(settings: CheckSettings, words: Words) -> Iterator[str]:
+def _lines(settings: CheckSettings, around: Surroundings, words: Words) -> Iterator[str]:
     """A line for each key: its value as TOML has it, and what gave it; of ``fail_on`` what fails besides."""
-    rows = [(f"{key} = {_value(settings, key)}", _source(settings, field, words)) for key, field in _FIELDS.items()]
+    rows = [
+        (f"{key} = {_value(settings, key)}", _source(settings, _FIELDS[key], words))
+        if key in _FIELDS
+        else (f"{key} = {around.texts[key]}", _source_around(settings, around, key, words))
+        for key in _KEYS
+    ]
     width = max(cells(printable(text)) for text, _ in rows)
-    for key, (text, source) in zip(_FIELDS, rows, strict=True):
+    for key, (text, source) in zip(_KEYS, rows, strict=True):
         fails = words(f"findings.fails-{settings.fail_on}") if key == "fail_on" else ""
         padded = printable(text) + " " * (width - cells(printable(text)))
         yield f"{padded}  # {words('findings.stop').join(filter(None, (printable(source), fails)))}"
@@ -294,6 +341,13 @@ def _source(settings: CheckSettings, field: str, words: Words) -> str:
     if settings.file and getattr(settings, field) != getattr(_USUAL, field):
         return settings.file
     return words("findings.as-usual")
+
+
+def _source_around(settings: CheckSettings, around: Surroundings, key: str, words: Words) -> str:
+    if key in around.by_options:
+        return words("findings.from-options")
+    is_said = settings.file and around.texts[key] not in (_toml(()), _NO_VALUE)
+    return settings.file if is_said else words("findings.as-usual")
 
 
 def _value(settings: CheckSettings, key: str) -> str:
@@ -314,7 +368,7 @@ def _value(settings: CheckSettings, key: str) -> str:
 def _toml(value: object) -> str:
     """A value as TOML has it; a dash where there is none, which TOML cannot say."""
     if value is None or value == "":
-        return "–"
+        return _NO_VALUE
     if isinstance(value, tuple):
         return f"[{', '.join(map(_toml, value))}]"
     return json.dumps(value, ensure_ascii=False)

@@ -65,6 +65,24 @@ def test_the_settings_that_count_are_shown_with_what_gave_them(shop: Path) -> No
     assert "3B204" not in out
 
 
+def test_what_settings_say_of_the_folder_is_shown_too(shop: Path) -> None:
+    (shop / "machines").mkdir()
+    said = 'machines = "machines"\nexclude = ["old", "*.bak"]\nbaseline = "known.json"\n'
+    said += '[dialects.house]\nextends = "fanuc"\n'
+    (shop / "drycut.toml").write_text(said, "ascii")
+    assert drycut("check", "a.3b", "--write-baseline", "known.json", cwd=shop)[0] == 0
+    code, out, _ = drycut("check", "a.3b", "--show-settings", "--include", "*.TAP", cwd=shop)
+    assert code == 0
+    told = dict(line.strip().replace(" ", "").split("#", 1) for line in out.splitlines()[1:])
+    assert {key: told[key] for key in told if told[key] == "drycut.toml"} == dict.fromkeys(
+        ['machines="machines"', 'exclude=["old","*.bak"]', 'baseline="known.json"', 'dialects=["house"]'], "drycut.toml"
+    )
+    assert told['include=["*.TAP"]'] == "option"
+    out = drycut("check", "a.3b", "--show-settings", "--write-baseline", "new.json", "--no-config", cwd=shop)[1]
+    assert "baseline = –" in out
+    assert "drycut.toml" not in out
+
+
 @pytest.mark.parametrize(
     ("text", "name", "failing"),
     [
