@@ -24,7 +24,7 @@ suite: $(READY)
 # Promises that hold for any input, on all the cases that are promised: hours, where the suite takes some of them.
 deep: $(READY)
 	DRYCUT_DEEP=1 $(BIN)/pytest -m alone $$(grep -rl --include='test_*.py' 'mark\.alone' tests)
-	DRYCUT_DEEP=1 $(BIN)/pytest -m "(deep or deeper or hypothesis) and not alone" --numprocesses auto
+	DRYCUT_DEEP=1 $(BIN)/pytest -m "(alike or deep or deeper or hypothesis) and not alone" --numprocesses auto
 
 # All at once: types take the longest, on one core.
 lint: $(READY)

@@ -166,3 +166,11 @@ def test_what_checks_the_scripts_of_pages_is_pinned_and_locked_from_no_place() -
     assert {name: locked[f"node_modules/{name}"]["version"] for name in wanted} == wanted
     assert not [name for name, entry in locked.items() if "resolved" in entry]
     assert not [name for name, entry in locked.items() if name and not {"integrity", "inBundle"} & entry.keys()]
+
+
+def test_make_deep_tries_all_that_the_suite_leaves_out() -> None:
+    settings = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["pytest"]["ini_options"]
+    (recipe,) = re.findall(r"^deep:.*\n((?:\t.*\n)+)", (ROOT / "Makefile").read_text("utf-8"), flags=re.MULTILINE)
+    marks = {re.split(r"[(:]", mark)[0] for mark in settings["markers"]}
+    assert marks == {"alike", "alone", "deep", "deeper"}
+    assert marks <= set(re.findall(r"[a-z]+", recipe.replace("DRYCUT_DEEP", "")))
