@@ -6,7 +6,7 @@ from collections.abc import Generator
 import pytest
 from browser import browsers, open_page
 from c_library import library
-from depth import DEEP, examples
+from depth import DEEP, examples, spread
 from hypothesis import settings
 
 __all__ = ["browsers", "library", "open_page"]
@@ -16,7 +16,10 @@ settings.load_profile("steady")
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Leave to ``make deep`` what takes long: promises of size and time, deaths of processes, most of what is alike."""
+    """Leave to ``make deep`` what takes long: promises of size and time, deaths of processes, most of what is alike.
+
+    A test that is named, as ``tests/test_some.py::test_this``, is tried whole.
+    """
     if DEEP or any("::" in name for name in config.args):
         return
     long = {id(item) for item in items if item.get_closest_marker("deeper")} | _more_of_a_kind(items)
@@ -25,17 +28,13 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 
 
 def _more_of_a_kind(items: list[pytest.Item]) -> set[int]:
-    """Cases beyond those that the suite tries of tests whose cases are alike, by the places of their items."""
-    cases: dict[str, list[pytest.Item]] = {}
+    """Cases, by the places of their items, for which others stand in the suite."""
+    cases: dict[tuple[str, int], list[pytest.Item]] = {}
     for item in items:
-        if item.get_closest_marker("alike"):
-            cases.setdefault(item.nodeid.partition("[")[0], []).append(item)
-    more = set()
-    for alike in cases.values():
-        (most,) = next(alike[0].iter_markers("alike")).args
-        tried = {round(at * (len(alike) - 1) / max(most - 1, 1)) for at in range(most)}
-        more |= {id(item) for at, item in enumerate(alike) if at not in tried}
-    return more
+        if mark := item.get_closest_marker("alike"):
+            cases.setdefault((item.nodeid.partition("[")[0], *mark.args), []).append(item)
+    tried = {key: spread(key[1], len(alike)) for key, alike in cases.items()}
+    return {id(item) for key, alike in cases.items() for at, item in enumerate(alike) if at not in tried[key]}
 
 
 def pytest_collection_finish() -> None:

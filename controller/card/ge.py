@@ -2,7 +2,7 @@
 
 from controller.card.calls.axis import IoCalls, PositionCalls, StatusCalls
 from controller.card.calls.list import ListCalls, StopCalls
-from controller.card.calls.lookahead import LookAheadCalls
+from controller.card.calls.lookahead_mode import LookAheadCalls
 from controller.card.calls.path_base import ArcCalls, LineCalls, MoveCalls, StepCalls
 from controller.card.calls.recorded import GuardCalls, RecordedCalls, SpecialCalls
 from controller.card.calls.speed import ServoCalls, SpeedCalls

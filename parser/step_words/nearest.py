@@ -18,7 +18,8 @@ import numpy as np
 from parser.controller_words import StepWords
 from parser.geometry.curves import Bools, Curves
 from parser.step_words.chained import Chained, OneBlock, Place
-from parser.step_words.near_blocks import Aim, LookedAt, arc_to, line_to, looked_at
+from parser.step_words.looked_at import LookedAt, looked_at
+from parser.step_words.near_blocks import Aim, arc_to, line_to
 
 _ATTEMPTS, _TAIL = 24, 40
 """How often the rows before a place are told until they meet it, and how many rows of them."""

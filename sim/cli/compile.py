@@ -8,7 +8,8 @@ from controller.compiled.loops import Loop
 LOOPS: Final[tuple[str, ...]] = (
     "controller.stepping.chunks",
     "sim.make.cam.order",
-    "sim.cut.kerf.shapes",
+    "sim.cut.kerf.bands",
+    "sim.cut.kerf.stars",
     "sim.cut.kerf.edges",
     "sim.cut.kerf.ways",
     "sim.cut.play",

@@ -27,9 +27,10 @@ from parser.program import Program
 from sim.base.progress import Progress, silent
 from sim.check.result import CheckState, Coverage
 from sim.check.travel import middle_mm, refusal, too_many_steps, travel_findings
+from sim.clients.findings import call_text, unseen_findings
 from sim.clients.listing import Again, again, program_of, pulses_again
 from sim.clients.session import Ended, Questions, Session
-from sim.clients.unseen import Unseen, call_text, unseen_findings, unseen_of
+from sim.clients.unseen import Unseen, unseen_of
 from sim.run.dryrun import DryRun, PulseSink, travel_end
 from sim.run.prepare import Prepared
 from sim.run.report.document import finding_entry

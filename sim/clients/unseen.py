@@ -1,10 +1,8 @@
-"""What a program did not look at: refused calls, moves that ended on a limit, sleeps too short; and findings on it.
+"""What a program did not look at: calls that were refused, moves that ended on a limit, sleeps that were too short.
 
 A log does not show whether a program looked at what a call returned. It shows what the program did next: after a
 refusal one that looked makes the call again, asks `GT_GetCmdSts`, stops, clears, or ends. After a limit it asks for the
 status of the axis, or clears it, before it moves again. What it did otherwise is told, and nothing else.
-
-Findings on what a program did not look at, at their lines in the listing.
 """
 
 from bisect import bisect_right
@@ -14,8 +12,6 @@ from typing import Final, NamedTuple
 
 from controller.card.core.call import Code
 from controller.card.core.state import LimitMet
-from parser.findings.findings import Finding
-from parser.text.source import LineIndex
 from sim.clients.listing import Again
 from sim.clients.session import ClientCall, Event, Questions, Session
 
@@ -200,62 +196,3 @@ def _asks(event: Event, *names: str) -> bool:
 
 def _began_s(event: Event) -> float:
     return event.t_s if isinstance(event, Questions) else event.call.t_s
-
-
-def unseen_findings(session: Session, unseen: Unseen, lines: LineIndex) -> tuple[Finding, ...]:
-    """GEC401 for refused calls, GEC402 for limits, GEC403 for sleeps, in the order of the listing.
-
-    What was refused because of a sleep is told there.
-    """
-    found = [*_refusals(session, unseen, lines), *_limits(unseen, lines), *_sleeps(session, unseen, lines)]
-    return tuple(sorted(found, key=lambda each: each.line))
-
-
-def call_text(session: Session, event: int) -> str:
-    """The call of an event as it is written: ``GT_LnXY(10.0, 0.0)``."""
-    each_event = session.events[event]
-    assert isinstance(each_event, ClientCall)  # noqa: S101 - found so
-    return f"{each_event.call.name}({', '.join(map(repr, each_event.call.arguments))})"
-
-
-def _refusals(session: Session, unseen: Unseen, lines: LineIndex) -> Iterator[Finding]:
-    of_sleeps = {at for sleep in unseen.short_sleeps for at in sleep.refused}
-    for refusal in unseen.refusals:
-        if refusal.event in of_sleeps:
-            continue
-        told_events = session.events[refusal.event]
-        assert isinstance(told_events, ClientCall)  # noqa: S101 - found so
-        yield lines.finding(
-            "GEC401",
-            _span(lines, refusal.event),
-            call=call_text(session, refusal.event),
-            answer=told_events.answered,
-            function=told_events.call.name,
-            then=call_text(session, refusal.then),
-        )
-
-
-def _limits(unseen: Unseen, lines: LineIndex) -> Iterator[Finding]:
-    for each in unseen.on_limit:
-        side = "limit-positive" if each.met.is_positive else "limit-negative"
-        yield lines.finding("GEC402", _span(lines, each.event), axis=each.met.axis, side=side, t_s=each.met.t_s)
-
-
-def _sleeps(session: Session, unseen: Unseen, lines: LineIndex) -> Iterator[Finding]:
-    for sleep in unseen.short_sleeps:
-        yield lines.finding(
-            "GEC403",
-            _span(lines, sleep.event),
-            slept_s=sleep.slept_s,
-            needed_s=sleep.needed_s,
-            short_s=sleep.needed_s - sleep.slept_s,
-            call=call_text(session, sleep.refused[0]),
-            more=len(sleep.refused) - 1,
-        )
-
-
-def _span(lines: LineIndex, event: int) -> tuple[int, int]:
-    """Of an event, behind its time."""
-    first, past = lines.bounds(event + 1)
-    text = lines.text[first:past]
-    return first + len(text) - len(text.lstrip(" 0123456789.")), past

@@ -23,8 +23,7 @@ from parser.shape.contours import Contour, find_contours
 from parser.shape.passes import Passes, find_passes
 from sim.base.progress import Progress, silent
 from sim.check.result import CheckState
-from sim.cut.obstacles import missed_work_findings, obstacle_findings
-from sim.cut.pieces.pieces import piece_findings, region_finding
+from sim.cut.findings import missed_work_findings, obstacle_findings, piece_findings, region_finding
 from sim.cut.regions import RegionError
 from sim.cut.remains import Remains, remains_of
 from sim.cut.wire_lag import bowed
@@ -36,7 +35,7 @@ from sim.run.dryrun import DryRun, Ending, PulseSink, motion_to_end, trip_of
 from sim.run.prepare import Prepared, prepare
 from sim.setup.part import DrawingTarget
 from sim.setup.scenario import Scenario
-from sim.table.losses import loss_findings
+from sim.table.findings import loss_findings
 from sim.table.motion import Motion, Moved, TableRun, driven
 from sim.table.trace import Trace
 

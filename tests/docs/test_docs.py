@@ -30,7 +30,7 @@ from sim.check.path_checks import PARSER_CHECKS, PATH_CHECKS
 from sim.check.settings import read as check_settings
 from sim.check.settings.search import SettingsSearch
 from sim.cli.check.command import check
-from sim.cut.kerf.shapes import rays as kerf_rays
+from sim.cut.kerf.stars import rays as kerf_rays
 from sim.jobs.trace_file import trace_arrays
 from sim.run.dryrun import DryRun
 from sim.run.report import build_report
@@ -325,7 +325,7 @@ def test_options_of_the_check_are_documented() -> None:
 def test_settings_of_the_check_are_documented_with_their_bounds() -> None:
     page = read(DOCS / "check.md").partition("## Settings\n")[2].partition("### Patterns\n")[0]
     written = re.findall(r"^\| `([^`]+)` \|", page, flags=re.MULTILINE)
-    *plain, wire, by_file = check_settings._KEYS
+    *plain, wire, by_file = check_settings.KEYS
     assert written == [*plain, *(f"[{wire}] {key}" for key in check_settings._WIRE), f"[{by_file}]"]
     for name, key in check_settings._WIRE.items():
         ((_, _, bounds, *_),) = rows_of(DOCS / "check.md", f"`[wire] {name}`")

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from depth import spread
 from licence_page import closure
 from places import ROOT
 
@@ -174,3 +175,11 @@ def test_make_deep_tries_all_that_the_suite_leaves_out() -> None:
     marks = {re.split(r"[(:]", mark)[0] for mark in settings["markers"]}
     assert marks == {"alike", "alone", "deep", "deeper"}
     assert marks <= set(re.findall(r"[a-z]+", recipe.replace("DRYCUT_DEEP", "")))
+
+
+@pytest.mark.parametrize(
+    ("most", "number", "tried"),
+    [(1, 5, {0}), (2, 5, {0, 4}), (3, 5, {0, 2, 4}), (4, 10, {0, 3, 6, 9}), (9, 3, {0, 1, 2})],
+)
+def test_cases_that_stand_for_others_are_spread_over_all(most: int, number: int, tried: set[int]) -> None:
+    assert spread(most, number) == tried

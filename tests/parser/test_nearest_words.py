@@ -8,7 +8,8 @@ from controller.stepping.steps import interpolate_words
 from parser.controller_words import Axis
 from parser.geometry.curves import Curves, Floats, curves_between
 from parser.step_words.chained import Chained, chained_words
-from parser.step_words.near_blocks import radii_counted, steps_off_um
+from parser.step_words.looked_at import radii_counted
+from parser.step_words.near_blocks import steps_off_um
 from parser.step_words.nearest import nearest_words
 from parser.step_words.words import moves, words_of_told_arcs
 

@@ -13,3 +13,8 @@ def cases(suite: int, deep: int) -> range:
 def examples(deep: int = 100) -> int:
     """How many examples a property is tried on that `hypothesis` makes: a third of them in the suite."""
     return deep if DEEP else max(deep // 3, 5)
+
+
+def spread(most: int, number: int) -> set[int]:
+    """Which of so many cases stand for all of them: `most`, the first and the last among them."""
+    return {round(at * (number - 1) / max(most - 1, 1)) for at in range(most)}

@@ -81,7 +81,7 @@ NAMES = ("drycut.toml", "pyproject.toml")
 _PROJECT = NAMES[1]
 _TOOL = ("tool", "drycut")
 """Tables of the second under which its settings stand."""
-_KEYS = (
+KEYS = (
     *(
         "root",
         "machine",
@@ -98,6 +98,7 @@ _KEYS = (
     *(key.name for key in READ_WITH),
     *("end_marks", "pause_marks", "dialects", "wire", "per_file_ignores"),
 )
+"""Keys of a settings file, in the order of docs/check.md."""
 FAIL_ON: tuple[FailOn, ...] = get_args(FailOn)
 _WIRE = {key.name: key for key in WIRE_LENGTHS.values()}
 
@@ -166,7 +167,7 @@ def read_settings(content: Mapping[str, Any], file: Path, name: str) -> Settings
 
     Raises FileUnreadableError or SettingsError with file and key.
     """
-    refuse_unknown(content, _KEYS, name)
+    refuse_unknown(content, KEYS, name)
     truth(content, "root", name)
     wire = section(content, "wire", name)
     refuse_unknown(wire, _WIRE, f"{name}: [wire]")

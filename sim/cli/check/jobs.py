@@ -7,6 +7,7 @@ Both print plain text for people and shells; no program is read.
 
 import json
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
@@ -25,6 +26,7 @@ from sim.check.files import FileFilter, find_files
 from sim.check.settings import CheckSettings
 from sim.check.settings.model import WIRE_LENGTHS
 from sim.check.settings.read import (
+    KEYS,
     NAMES,
     NO_SETTINGS,
     PathPattern,
@@ -86,21 +88,11 @@ def check_options_of(values: dict[str, Any]) -> CheckOptions:
     return CheckOptions(lengths=taken_lengths(WIRE_LENGTHS.values(), values), **values)
 
 
-class Surroundings(NamedTuple):
-    """What settings say of the folder of a file, beside what the file is checked with: by keys, as TOML has it.
-
-    `by_options` are the keys that stand on the command line.
-    """
-
-    texts: Mapping[str, str]
-    by_options: frozenset[str]
-
-
 class Jobs(NamedTuple):
-    """A job for each file that names lead to, its surroundings, and the files of folders that are passed over."""
+    """A job for each file that names lead to, the settings file near each, and the files that are passed over."""
 
     jobs: list[Job]
-    surroundings: list[Surroundings]
+    near: list[SettingsFile]
     passed_over: list[str]
 
 
@@ -116,8 +108,8 @@ def jobs_of(names: Sequence[str], options: CheckOptions) -> Jobs:
     making = _Making(options)
     found = find_files(names, making.file_filter)
     jobs = [making.job(name) for name in found.files]
-    surroundings = [making.surroundings(name) for name in found.files]
-    return Jobs(jobs, surroundings, [name for name in found.passed_over if not making.is_own(Path(name))])
+    near = [making.near(name) for name in found.files]
+    return Jobs(jobs, near, [name for name in found.passed_over if not making.is_own(Path(name))])
 
 
 def filter_of(options: CheckOptions) -> FileFilter:
@@ -170,7 +162,7 @@ class _Making:
         settings = near.settings_of(placed).with_options(
             {**self._options, **self._dialect(near), **self._machine(near)}
         )
-        _ = settings.demands  # settings that contradict each other are told before the first file
+        _ = settings.demands  # settings that contradict each other are texts before the first file
         baseline = self._baseline(near)
         of_file = baseline.of(placed) if baseline else {}
         known = frozenset(mark for mark, code in of_file.items() if code not in CODES or settings.shows(code))
@@ -178,28 +170,15 @@ class _Making:
             return Job("<stdin>", read_stdin(), settings, known)
         return Job(name, Path(name), settings, known)
 
-    def surroundings(self, name: str) -> Surroundings:
-        """What settings and options say of the folder of a file."""
+    def near(self, name: str) -> SettingsFile:
+        """The settings file that counts for a file, with what options say in its place of which files are checked."""
         near, options = self._near(self._search.placed(Path(name))), self._asked
-        exclude = near.exclude if self._exclude is None else self._exclude
-        include = near.include if self._include is None else self._include
-        texts = {
-            "exclude": _toml(tuple(pattern.text for pattern in exclude)),
-            "include": _toml(tuple(pattern.text for pattern in include)),
-            "baseline": self._path(None if options.write_baseline else options.baseline or near.baseline),
-            "machines": self._path(near.machines),
-            "dialects": _toml(tuple(near.dialects)),
-        }
-        given = {"exclude": options.exclude, "include": options.include, "baseline": options.baseline}
-        return Surroundings(texts, frozenset(key for key, value in given.items() if value))
-
-    def _path(self, path: Path | None) -> str:
-        """A path as seen from the working folder, where it lies below that."""
-        if path is None:
-            return _toml(None)
-        placed = self._search.placed(path)
-        below = placed.is_relative_to(self._search.working)
-        return _toml((placed.relative_to(self._search.working) if below else placed).as_posix())
+        return replace(
+            near,
+            exclude=near.exclude if self._exclude is None else self._exclude,
+            include=near.include if self._include is None else self._include,
+            baseline=None if options.write_baseline else options.baseline or near.baseline,
+        )
 
     def _dialect(self, near: SettingsFile) -> dict[str, Any]:
         """The dialect that the command line names, which settings may define."""
@@ -270,14 +249,11 @@ _FIELDS: Final = {
     "wire.spark_gap_mm": "spark_gap_um",
 }
 """Keys of settings, and the fields of `CheckSettings` that have their values."""
-_KEYS: Final = (
-    *("machine", "machines", "start_mm", "open", "select", "ignore", "per_file_ignores", "fail_on"),
-    *("exclude", "include", "baseline", "dialect", "dialects", "unit", "registers_mm", "end_marks", "pause_marks"),
-    *("wire.diameter_mm", "wire.spark_gap_mm"),
-)
-"""Keys of settings in the order in which they are shown."""
+_OF_FOLDER: Final = ("exclude", "include", "baseline", "machines", "dialects")
+"""Keys of settings that say something of the folder, beside what a file is checked with."""
+_WIRE: Final = ("wire.diameter_mm", "wire.spark_gap_mm")
+_KEYS: Final = tuple(each for key in KEYS if key != "root" for each in (_WIRE if key == "wire" else (key,)))
 _USUAL: Final = CheckSettings()
-_NO_VALUE: Final = "–"  # TOML cannot say it
 
 
 def passed_over_text(names: Sequence[str], language: Language) -> str:
@@ -298,14 +274,15 @@ def show_files(found: Jobs, language: Language) -> None:
     _end(found, language)
 
 
-def show_settings(found: Jobs, language: Language) -> None:
+def show_settings(found: Jobs, options: CheckOptions, language: Language) -> None:
     """Print with which settings the files would be checked, and what gave each.
 
     Files with the same settings stand together.
     """
     alike: dict[tuple[str, ...], list[str]] = {}
-    for job, around in zip(found.jobs, found.surroundings, strict=True):
-        alike.setdefault(tuple(_lines(job.settings, around, Words(language))), []).append(printable(job.name))
+    for job, near in zip(found.jobs, found.near, strict=True):
+        lines = tuple(_lines(job.settings, near, options, Words(language)))
+        alike.setdefault(lines, []).append(printable(job.name))
     for lines, (first, *others) in alike.items():
         key = "findings.settings-of-some" if others else "findings.settings-of"
         say(Words(language)(key, file=first, n=len(others)))
@@ -320,16 +297,17 @@ def _end(found: Jobs, language: Language) -> None:
         say(passed, err=True)
 
 
-def _lines(settings: CheckSettings, around: Surroundings, words: Words) -> Iterator[str]:
+def _lines(settings: CheckSettings, near: SettingsFile, options: CheckOptions, words: Words) -> Iterator[str]:
     """A line for each key: its value as TOML has it, and what gave it; of ``fail_on`` what fails besides."""
     rows = [
-        (f"{key} = {_value(settings, key)}", _source(settings, _FIELDS[key], words))
-        if key in _FIELDS
-        else (f"{key} = {around.texts[key]}", _source_around(settings, around, key, words))
+        (_of_folder(near, key), _source_of_folder(settings, near, options, key, words))
+        if key in _OF_FOLDER
+        else (_value(settings, key), _source(settings, _FIELDS[key], words))
         for key in _KEYS
     ]
-    width = max(cells(printable(text)) for text, _ in rows)
-    for key, (text, source) in zip(_KEYS, rows, strict=True):
+    texts = [f"{key} = {value}" for key, (value, _) in zip(_KEYS, rows, strict=True)]
+    width = max(cells(printable(text)) for text in texts)
+    for key, text, (_, source) in zip(_KEYS, texts, rows, strict=True):
         fails = words(f"findings.fails-{settings.fail_on}") if key == "fail_on" else ""
         padded = printable(text) + " " * (width - cells(printable(text)))
         yield f"{padded}  # {words('findings.stop').join(filter(None, (printable(source), fails)))}"
@@ -338,16 +316,30 @@ def _lines(settings: CheckSettings, around: Surroundings, words: Words) -> Itera
 def _source(settings: CheckSettings, field: str, words: Words) -> str:
     if field in settings.by_options:
         return words("findings.from-options")
-    if settings.file and getattr(settings, field) != getattr(_USUAL, field):
-        return settings.file
-    return words("findings.as-usual")
+    return _file_or_usual(settings, words, is_said=getattr(settings, field) != getattr(_USUAL, field))
 
 
-def _source_around(settings: CheckSettings, around: Surroundings, key: str, words: Words) -> str:
-    if key in around.by_options:
+def _source_of_folder(
+    settings: CheckSettings, near: SettingsFile, options: CheckOptions, key: str, words: Words
+) -> str:
+    if getattr(options, key, None):
         return words("findings.from-options")
-    is_said = settings.file and around.texts[key] not in (_toml(()), _NO_VALUE)
-    return settings.file if is_said else words("findings.as-usual")
+    return _file_or_usual(settings, words, is_said=bool(getattr(near, key)))
+
+
+def _file_or_usual(settings: CheckSettings, words: Words, *, is_said: bool) -> str:
+    return settings.file if settings.file and is_said else words("findings.as-usual")
+
+
+def _of_folder(near: SettingsFile, key: str) -> str:
+    """Patterns as they were written, names of dialects, and paths as seen from the working folder if below that."""
+    value = getattr(near, key)
+    if isinstance(value, Path):
+        working = Path.cwd().resolve()
+        return _toml((value.relative_to(working) if value.is_relative_to(working) else value).as_posix())
+    if value is None:
+        return _toml(None)
+    return _toml(tuple(getattr(each, "text", each) for each in value))
 
 
 def _value(settings: CheckSettings, key: str) -> str:
@@ -368,7 +360,7 @@ def _value(settings: CheckSettings, key: str) -> str:
 def _toml(value: object) -> str:
     """A value as TOML has it; a dash where there is none, which TOML cannot say."""
     if value is None or value == "":
-        return _NO_VALUE
+        return "–"
     if isinstance(value, tuple):
         return f"[{', '.join(map(_toml, value))}]"
     return json.dumps(value, ensure_ascii=False)

@@ -19,8 +19,9 @@ from parser.geometry.curves import Bools, Curves, Floats, Ints
 from parser.shape.contours import Contour
 from parser.shape.passes import find_passes, leads_of
 from parser.toolpath import Toolpath
+from sim.cut.kerf.bands import are_straight, bands
 from sim.cut.kerf.edges import Edges, Range, edges_of, ranges
-from sim.cut.kerf.shapes import are_straight, bands, stars
+from sim.cut.kerf.stars import stars
 from sim.cut.kerf.ways import WireWay, wire_ways
 from sim.cut.regions import Region, Regions, cut_by_blocks, union_all, unions
 from sim.table.trace import Trace

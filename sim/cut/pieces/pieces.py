@@ -1,7 +1,4 @@
-"""The pieces that the kerf leaves: what each is, which contour frees it and when, what held it, what is wrong there.
-
-Findings on what a cut leaves: pieces that come free before their cut is done, and a kerf that stays unknown.
-"""
+"""The pieces that the kerf leaves: what each is, which contour frees it and when, and what held it last."""
 
 from collections.abc import Sequence
 from typing import Literal, NamedTuple
@@ -9,16 +6,11 @@ from typing import Literal, NamedTuple
 import numpy as np
 import shapely
 
-from parser.dialect.reader import at_block
-from parser.findings.findings import Finding
-from parser.program import Program
 from parser.toolpath import Point
-from parser.units import mm
 from sim.cut.kerf.swept import Kerf
 from sim.cut.kerf.ways import WireWay
 from sim.cut.pieces.frees import Cutting, FreeMoment, Rest, cut_on_um, moments_of, parted
 from sim.cut.pieces.kinds import Bridge, Kind, Loose, bridge_of, held_after, kinds_of, older_place
-from sim.cut.regions import RegionError
 from sim.setup.obstacles import Outline
 
 _CRUMB_MM2 = 0.001  # some 30 µm square, or cusps where the wire leaves its kerf: nothing that anyone picks up
@@ -216,31 +208,3 @@ def _after(cuts: _Cuts, loose: Loose, *, is_slug: bool) -> list[Rest]:
         return [rest]
     met = np.sort(cuts.kerfs.query(moment.piece_um, predicate="intersects"))
     return [rest, *(Rest(swept[at], 0) for at in met[met > moment.contour].tolist())]
-
-
-def piece_findings(program: Program, pieces: Pieces) -> list[Finding]:
-    """Finding 3B406 for each piece that comes free before its cut is done."""
-    return [_early(program, piece) for piece in pieces.freed if piece.early]
-
-
-def region_finding(program: Program, error: RegionError) -> Finding:
-    """Finding 3B407: what is left could not be worked out."""
-    first, last = (int(program.toolpath.source.block[number - 1]) for number in (error.first, error.last))
-    return at_block(program.toolpath, program.lines, "3B407", error.first - 1, first=first, last=last)
-
-
-def _early(program: Program, piece: Piece) -> Finding:
-    freed = piece.freed
-    return at_block(
-        program.toolpath,
-        program.lines,
-        "3B406",
-        freed.block - 1,
-        kind=piece.kind,
-        pause=program.reading.spelling.pause,
-        area_mm2=piece.area_mm2,
-        cut_after=piece.cut_after_um,
-        t_s=freed.t_s,
-        x_mm=mm(freed.wire_um.x),
-        y_mm=mm(freed.wire_um.y),
-    )

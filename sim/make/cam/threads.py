@@ -19,18 +19,8 @@ from parser.geometry.distance import distance_to_curves
 from parser.geometry.near import near_places
 from parser.toolpath import Point
 from parser.units import mm
-from sim.make.cam.entries import (
-    MOST,
-    Entries,
-    EntryRequest,
-    Wanted,
-    across_from,
-    before_corners,
-    begun_on,
-    chosen,
-    corners,
-    nearest_of,
-)
+from sim.make.cam.chosen import Wanted, before_corners, begun_on, chosen
+from sim.make.cam.entries import MOST, Entries, EntryRequest, across_from, corners, nearest_of
 from sim.make.cam.leads import TOLERANCE_UM, Room, are_free, nearest, room_of
 from sim.make.cam.model import CannotCutError, Entry, Figure, Refusal, Thread, ThreadedBy
 from sim.make.cam.order import around

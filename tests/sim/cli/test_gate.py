@@ -7,6 +7,8 @@ import pytest
 from checking import SOUND, WRONG_AXIS, drycut
 from places import ROOT
 
+from sim.check.settings.read import KEYS
+
 OPEN = "B9900B0B9900GXL1\nB0B9900B9900GYL2\nB3000B2000B3000GXL3\nDD\n"
 LABEL = SOUND.replace("GXL1", "GXL4")  # a warning
 TAPER = "G92 X0 Y0\nG90 G51 A1.5\nG01 X0 Y5000\nX5000 Y5000\nX5000 Y0\nX0 Y0\nG50 A0\nM02\n"
@@ -78,6 +80,7 @@ def test_what_settings_say_of_the_folder_is_shown_too(shop: Path) -> None:
         ['machines="machines"', 'exclude=["old","*.bak"]', 'baseline="known.json"', 'dialects=["house"]'], "drycut.toml"
     )
     assert told['include=["*.TAP"]'] == "option"
+    assert {key.split("=")[0].split(".")[0] for key in told} == set(KEYS) - {"root"}
     out = drycut("check", "a.3b", "--show-settings", "--write-baseline", "new.json", "--no-config", cwd=shop)[1]
     assert "baseline = –" in out
     assert "drycut.toml" not in out

@@ -7,7 +7,8 @@ from paths import Pen
 from traced import F, kerf_along
 
 from parser.geometry.curves import Floats
-from sim.cut.kerf.shapes import SIMPLER_UM, are_straight, bands
+from sim.cut.kerf.bands import are_straight, bands
+from sim.cut.kerf.stars import SIMPLER_UM
 from sim.cut.kerf.swept import Swept
 from sim.cut.kerf.ways import WireWay, spacing_um
 

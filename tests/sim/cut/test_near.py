@@ -11,7 +11,7 @@ from traced import STEEL, F, kerf_along, pieces_along, trace_of
 from parser.toolpath import Toolpath
 from sim.cut import play, sizes
 from sim.cut.kerf.edges import nominal_region
-from sim.cut.kerf.shapes import SIMPLER_UM, rays, stars
+from sim.cut.kerf.stars import SIMPLER_UM, rays, stars
 from sim.cut.kerf.ways import rows_that_made
 from sim.cut.pieces import frees, kept_edges
 from sim.cut.pieces.kept_edges import lie_on

@@ -17,16 +17,8 @@ from parser.geometry.curves import CurveKind, Floats
 from parser.program import Program, parse_program
 from parser.shape.contours import find_contours
 from parser.toolpath import Point
-from sim.cut.obstacles import (
-    Touch,
-    grown,
-    missed_work_findings,
-    obstacle_findings,
-    swept,
-    touches,
-    triangles,
-    way_of,
-)
+from sim.cut.findings import missed_work_findings, obstacle_findings
+from sim.cut.obstacles import Touch, grown, swept, touches, triangles, way_of
 from sim.setup.machine.machine import load_machine
 from sim.setup.obstacles import Clamp, Outline, read_outline
 from sim.table.trace import Trace

@@ -68,7 +68,7 @@ def test_shipped_machines_fit_their_schema(path: Path) -> None:
 
 def test_settings_in_full_fit_theirs_which_names_the_keys_that_are_read() -> None:
     assert wrong(SETTINGS, IN_FULL) == []
-    assert set(settings_schema()["properties"]) == set(settings_files._KEYS) == set(tomllib.loads(IN_FULL))
+    assert set(settings_schema()["properties"]) == set(settings_files.KEYS) == set(tomllib.loads(IN_FULL))
 
 
 @pytest.mark.parametrize(
