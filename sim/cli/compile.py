@@ -23,6 +23,7 @@ LOOPS: Final[tuple[str, ...]] = (
     "sim.table.rating",
     "sim.table.history",
     "sim.table.axis",
+    "sim.table.swings",
 )
 """Modules with compiled loops."""
 

@@ -22,7 +22,7 @@ from controller.stepping.pulses import Pulses
 from controller.stepping.steps import Steps
 from parser.geometry.curves import Bools, Floats, Ints
 from parser.toolpath import Toolpath
-from sim.measure.deviation import Deviation, DeviationMeter, Where, across_um, summed, where
+from sim.measure.deviation import ROUNDING_UM, Deviation, DeviationMeter, Where, across_um, farthest, summed, where
 from sim.table.motion import Motion
 from sim.table.trace import Trace
 
@@ -172,7 +172,6 @@ class Part(NamedTuple):
 
 
 NOTHING = Part(0.0, None)
-_ROUNDING_UM = 1e-6
 
 
 class Stage(NamedTuple):
@@ -222,7 +221,7 @@ def added(trace: Trace, stage: Stage, before: Stage) -> Part:
     moved = np.hypot(*(stage.place_um - before.place_um).T)
     across = np.abs(stage.off_um - before.off_um)
     nearer = np.abs(np.abs(stage.off_um) - np.abs(before.off_um))
-    parted = across <= moved + _ROUNDING_UM
+    parted = across <= moved + ROUNDING_UM
     return _largest(trace, stage.place_um, np.where(parted, across, np.minimum(nearer, moved)))
 
 
@@ -230,8 +229,7 @@ def _largest(trace: Trace, place_um: Floats, away_um: Floats) -> Part:
     most = float(away_um.max())
     if most == 0.0:
         return NOTHING
-    first = int(np.argmax(away_um >= most - _ROUNDING_UM))
-    return Part(most, where(trace, place_um, first))
+    return Part(most, where(trace, place_um, farthest(away_um)))
 
 
 def cut_off(toolpath: Toolpath, trace: Trace, plan: Plan, period_s: float) -> Part:

@@ -160,7 +160,7 @@ _MOST_BACK = 50
 _CATCHES_UP = 2.0
 """How much faster than the place the bound comes on. With 1 it would never catch up with a wire that cuts corners off;
 with 2 it has done so after a way as long as the place was behind."""
-_NEARER_UM = 1e-6
+ROUNDING_UM = 1e-6
 """Another block counts where it is nearer by more than rounding: of two as near, the one that is running."""
 
 
@@ -203,7 +203,7 @@ def _nearer(  # noqa: PLR0913, PLR0917 - a compiled loop hands over numbers one 
     """Another block and its distance from a place, where it is nearer than the best so far; else that one."""
     if 0 <= row < len(blocks):
         there, _ = away_from(blocks[row], x, y)
-        if there < away - _NEARER_UM:
+        if there < away - ROUNDING_UM:
             return row, there
     return best, away
 
@@ -260,14 +260,19 @@ def summed(toolpath: Toolpath, trace: Trace, place_um: Floats, off_um: Floats) -
     first = np.flatnonzero(np.diff(trace.row, prepend=-1))
     by_row = np.full(len(toolpath), np.nan)
     by_row[trace.row[first]] = np.maximum.reduceat(away, first)
-    at = int(np.argmax(away))
+    at = farthest(away)
     return Deviation(
-        max_um=float(away[at]),
+        max_um=float(away.max()),
         rms_um=float(np.dot(away, away) / len(away)) ** 0.5,
         p95_um=float(np.quantile(away, 0.95, method="inverted_cdf")),
         where=where(trace, place_um, at),
         by_row_um=by_row,
     )
+
+
+def farthest(away_um: Floats) -> int:
+    """The first of the samples (m,) that lie farthest away, but for rounding."""
+    return int(np.argmax(away_um >= away_um.max() - ROUNDING_UM))
 
 
 def where(trace: Trace, place_um: Floats, at: int) -> Where:

@@ -30,7 +30,7 @@ from parser.geometry.distance import distance_to_curves, feet
 from parser.geometry.near import near_places
 from parser.shape.passes import Pass, Passes
 from parser.toolpath import Point, Toolpath
-from sim.measure.deviation import across_um
+from sim.measure.deviation import across_um, farthest
 from sim.table.trace import Trace
 
 _SPACING_UM: Final = 20.0
@@ -241,5 +241,6 @@ def _worst(way: WireTaken) -> Worst | None:
     """The place of a way that lies farthest from the path, the first such; None where there is none."""
     if not len(way.row):
         return None
-    at = int(np.argmax(np.abs(way.off_um)))
-    return Worst(abs(float(way.off_um[at])), Point(*way.place_um[at].tolist()))
+    away = np.abs(way.off_um)
+    at = farthest(away)
+    return Worst(float(away.max()), Point(*way.place_um[at].tolist()))

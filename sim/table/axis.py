@@ -1,9 +1,4 @@
-"""One axis of the table: what it is, what it is asked for, and what each tick does to it.
-
-One axis of the table: what it is, what it is asked for, and how far it has come.
-
-One tick of one axis: what the drive is asked for, what it does, and what is kept of it.
-"""
+"""One axis of the table: what it is, what it is asked for, how far it has come, and what a tick does to it."""
 
 import math
 from typing import NamedTuple
@@ -187,22 +182,34 @@ def after(axis: Axis, demand: AxisDemand, state: State, ahead: Ahead, passed: Pa
     return State(now, ahead.turn, ahead.rating, noted, min(tripped_s, state.tripped_s))
 
 
+@compiled("(AxisDemand, State, State)", AxisDemand, State)
+def values_of(demand: AxisDemand, before: State, now: State) -> Values:
+    """What an axis did from one state to the next, which is a tick later, or a rest."""
+    since, slide = before.slide, now.slide
+    length_s, velocity = slide.t_s - since.t_s, slide.velocity
+    error_um = demand.train.place_um[now.noted.commanded] - slide.at_um
+    # Where ticks become shorter, the kick is longer than the tick that it begins.
+    acceleration = (velocity - since.velocity) / max(length_s, (since.tick_s + length_s) / 2.0)
+    return Values(velocity, acceleration, slide.lag_um, error_um, slide.force)
+
+
+@compiled("(Axis, Rating)", Axis, Rating)
+def limits_of(axis: Axis, rating: Rating) -> Limits:
+    """Limits of an axis at its step rate."""
+    return Limits(rating.limit, axis.speed_limit_um_s, min(rating.pull_out_um, axis.trip_um))
+
+
 @compiled("(Axis, AxisDemand, State, State, Record)", Axis, AxisDemand, State, Record)
 def recorded(axis: Axis, demand: AxisDemand, before: State, now: State, record: Record) -> State:
     """Record what an axis did from one state to the next; the next one, with how far the record is."""
     since, slide, noted = before.slide, now.slide, before.noted
-    length_s, slip_um = slide.t_s - since.t_s, slide.lost_um - since.lost_um
-    velocity = slide.velocity
-    sample = sampled(record, noted.sample, since, velocity, slide.t_s)
+    slip_um = slide.lost_um - since.lost_um
+    sample = sampled(record, noted.sample, since, slide.velocity, slide.t_s)
     number, slip = noted.bin, noted.slip
     if since.t_s < demand.braked_s:
-        error_um = demand.train.place_um[now.noted.commanded] - slide.at_um
-        # Where ticks become shorter, the kick is longer than the tick that it begins.
-        acceleration = (velocity - since.velocity) / max(length_s, (since.tick_s + length_s) / 2.0)
-        values = Values(velocity, acceleration, slide.lag_um, error_um, slide.force)
+        values = values_of(demand, before, now)
         number = binned(record.bins, number, since.t_s, min(slide.t_s, demand.braked_s), values)
-        limits = Limits(now.rating.limit, axis.speed_limit_um_s, min(now.rating.pull_out_um, axis.trip_um))
-        peaked(record, values, limits, slide)
+        peaked(record, values, limits_of(axis, now.rating), slide)
     if slip_um != 0.0:
         record.slip_s[slip], record.slip_um[slip], record.slip_at_um[slip] = slide.t_s, slip_um, slide.at_um
         slip += 1
@@ -221,11 +228,12 @@ def due_s(demand: AxisDemand, state: State) -> float:
 
 @compiled("(State, f8)", State)
 def waited(state: State, until_s: float) -> State:
-    """An axis that has rested until a time."""
-    slide, turn = state.slide, state.turn
+    """An axis that has rested until a time; its step rate is taken anew then."""
+    slide, turn, rating = state.slide, state.turn, state.rating
     rested = Slide(until_s, slide.at_um, 0.0, 0.0, slide.lost_um, slide.lag_um, slide.force, False)
     still = Turn(turn.place_um, until_s, 0.0, turn.begun, turn.done)
-    return State(rested, still, state.rating, state.noted, state.tripped_s)
+    aged = Rating(rating.limit, rating.pull_out_um, until_s, rating.first, rating.last)
+    return State(rested, still, aged, state.noted, state.tripped_s)
 
 
 @compiled("(Axis, AxisDemand, State)", Axis, AxisDemand, State)
@@ -239,15 +247,3 @@ def ticked(axis: Axis, demand: AxisDemand, state: State) -> State:
     stop_um = min(max(at_um, axis.low_um), axis.high_um)
     velocity = (stop_um - slide.at_um) / ahead.tick_s
     return after(axis, demand, state, ahead, Passed(now.force, stop_um, velocity))
-
-
-@compiled("(Axis, AxisDemand, State, Record)", Axis, AxisDemand, State, Record)
-def followed(axis: Axis, demand: AxisDemand, state: State, record: Record) -> State:
-    """An axis once it has followed its pulses as far as they lead, its record has no room for slips, or it trips."""
-    while due_s(demand, state) < demand.until_s and state.noted.slip < len(record.slip_s):
-        if state.tripped_s < demand.braked_s:
-            break
-        until_s = due_s(demand, state)
-        now = waited(state, until_s) if until_s > state.slide.t_s else ticked(axis, demand, state)
-        state = recorded(axis, demand, state, now, record)
-    return state

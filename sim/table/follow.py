@@ -11,7 +11,6 @@ from parser.controller_words import Axis
 from parser.geometry.curves import Floats, Ints
 from parser.units import from_mm
 from sim.setup.machine.machine import TableEngine, TableModel
-from sim.table.axis import followed
 from sim.table.drive import Bodies, drives_of
 from sim.table.history import History, history_of
 from sim.table.losses import (
@@ -29,6 +28,7 @@ from sim.table.run import (
     InBodies,
     axis_of,
 )
+from sim.table.swings import followed
 from sim.table.ticks import Ticks
 from sim.table.trace import Trace
 

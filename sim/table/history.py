@@ -1,11 +1,8 @@
-"""History: velocity, acceleration, lag, following error and force of each axis over a whole run, in bins of time.
+"""What is recorded of one axis as it goes through its ticks, and the history of a run that is made of it.
 
-Bins of time: the lowest, the highest and the mean value of each; their memory does not grow with the ticks.
-
-Its memory does not grow with the ticks: time is cut into at most 2000 bins, and each bin keeps the lowest, the highest
-and the mean value of the ticks in it.
-
-What is kept of the ticks of one axis as it goes through them: bins of time, peaks, slips, samples.
+The history is velocity, acceleration, lag, following error and force of each axis over time. Its memory does not grow
+with the ticks: time is cut into at most 2000 bins, of which each has the lowest, the highest and the mean value of its
+ticks. Beside them stand peaks, slips of the motor, and the samples of the trace.
 """
 
 import math
@@ -69,7 +66,7 @@ def _widened(bins: Bins, at: int, value: float, length_s: float) -> None:
 
 
 @compiled("(Bins, i8, f8, Values)", Bins, Values)
-def _add(bins: Bins, number: int, length_s: float, values: Values) -> None:
+def add(bins: Bins, number: int, length_s: float, values: Values) -> None:
     """Take values into a bin."""
     at = number * VALUES
     _widened(bins, at, values.velocity, length_s)
@@ -86,10 +83,10 @@ def binned(bins: Bins, number: int, since_s: float, until_s: float, values: Valu
     while number < last and border_s[number + 1] <= since_s:
         number += 1
     while number < last and border_s[number + 1] < until_s:
-        _add(bins, number, border_s[number + 1] - since_s, values)
+        add(bins, number, border_s[number + 1] - since_s, values)
         number += 1
         since_s = border_s[number]
-    _add(bins, number, min(until_s, border_s[last + 1]) - since_s, values)
+    add(bins, number, min(until_s, border_s[last + 1]) - since_s, values)
     return number
 
 
@@ -97,6 +94,7 @@ PEAKS = 3
 """What has a peak: force, speed, lag."""
 PEAK_COLUMNS = 5
 """Of a peak: share, value, limit, time, place of the slide."""
+_BEYOND_ROUNDING = 1.0 + 1e-6
 
 
 class Limits(NamedTuple):
@@ -105,6 +103,48 @@ class Limits(NamedTuple):
     force: float
     speed: float
     lag_um: float
+
+
+SWINGS = 64
+"""Swings that are stored of an axis: a power of two."""
+SWING_TICKS = 128
+"""Most ticks of a swing that is stored: two and a half periods of ringing."""
+SWING_ENDS, SWING_PEAKS = 5, 3 * PEAKS
+"""Figures of a swing: of its end, and of its peaks."""
+
+
+class Swings(NamedTuple):
+    """Swings of one axis, n of them: what a step from rest did until the slide rested again.
+
+    Attributes
+    ----------
+    lag_um, step_um
+        (n,), lag at which the slide stood, NaN where none is stored, and the step.
+    ends
+        (n * SWING_ENDS,), of each: time that it lasts, lag at which the slide rests then, most that it was away from
+        where it stood, and lag and force of its last tick.
+    way_um
+        (n * SWING_TICKS,), of each: way of the slide by the end of each tick.
+    bins
+        Lowest, highest and integral of each of `Values`, as of n bins; the following error without what was lost.
+    peaks
+        (n * SWING_PEAKS,), of each: highest force, speed and lag, each with the time and the way since it began.
+    """
+
+    lag_um: Floats
+    step_um: Floats
+    ends: Floats
+    way_um: Floats
+    bins: Bins
+    peaks: Floats
+
+
+def no_swings() -> Swings:
+    """Room for swings, none of them stored."""
+    low, high, area = (np.zeros(SWINGS * VALUES) for _ in range(3))
+    ends, ways, peaks = (np.zeros(SWINGS * width) for width in (SWING_ENDS, SWING_TICKS, SWING_PEAKS))
+    none = np.full(SWINGS, np.nan)
+    return Swings(none, np.zeros(SWINGS), ends, ways, Bins(np.zeros(SWINGS + 1), low, high, area), peaks)
 
 
 class Record(NamedTuple):
@@ -120,6 +160,8 @@ class Record(NamedTuple):
         (n + 1,) and (n,), times of the samples, and infinity; place of the slide then.
     slip_s, slip_um, slip_at_um
         (s,), slips of a stepper: when, by how much, and where the slide was.
+    swings
+        Swings that it has made so far, which `sim.table.swings` repeats.
     """
 
     bins: Bins
@@ -129,14 +171,18 @@ class Record(NamedTuple):
     slip_s: Floats
     slip_um: Floats
     slip_at_um: Floats
+    swings: Swings
 
 
 @compiled("(Record, i8, f8, f8, Slide)", Record, Slide)
-def _take_peak(record: Record, number: int, value: float, limit: float, slide: Slide) -> None:
-    """Take a value for a peak, if it is the largest share of its limit; the largest of all where there is none."""
+def take_peak(record: Record, number: int, value: float, limit: float, slide: Slide) -> None:
+    """Take a value for a peak, if it is the largest share of its limit; the largest of all where there is none.
+
+    Of values alike but for rounding it is the first.
+    """
     at = number * PEAK_COLUMNS
     of = limit if limit < math.inf else 1.0
-    if value > record.peaks[at] * of:
+    if value > record.peaks[at] * of * _BEYOND_ROUNDING:
         record.peaks[at], record.peaks[at + 1], record.peaks[at + 2] = value / of, value, limit
         record.peaks[at + 3], record.peaks[at + 4] = slide.t_s, slide.at_um
 
@@ -144,9 +190,9 @@ def _take_peak(record: Record, number: int, value: float, limit: float, slide: S
 @compiled("(Record, Values, Limits, Slide)", Record, Values, Limits, Slide)
 def peaked(record: Record, values: Values, limits: Limits, slide: Slide) -> None:
     """Take a tick for the peaks; `slide` is that at its end."""
-    _take_peak(record, 0, abs(values.force), limits.force, slide)
-    _take_peak(record, 1, abs(values.velocity), limits.speed, slide)
-    _take_peak(record, 2, abs(values.lag_um), limits.lag_um, slide)
+    take_peak(record, 0, abs(values.force), limits.force, slide)
+    take_peak(record, 1, abs(values.velocity), limits.speed, slide)
+    take_peak(record, 2, abs(values.lag_um), limits.lag_um, slide)
 
 
 @compiled("i8(Record, i8, Slide, f8, f8)", Record, Slide)

@@ -24,12 +24,11 @@ from sim.table.axis import (
     ahead_of,
     driven,
     due_s,
-    followed,
     recorded,
     waited,
 )
 from sim.table.drive import Bodies, drives_of, resting
-from sim.table.history import PEAKS, VALUES, Bins, Record, borders_s
+from sim.table.history import PEAKS, VALUES, Bins, Record, borders_s, no_swings
 from sim.table.losses import Slip
 from sim.table.rating import RATE_WINDOW_S, Rating, Train, Turn, rated, strength_of
 from sim.table.ticks import Ticks
@@ -61,9 +60,9 @@ def axis_of(model: TableModel, number: int, ticks: Ticks, room_um: Floats, speed
 
 
 class AxisRun:
-    """An axis that follows its pulses, from rest at a place on; `engine` goes through its ticks, as `followed` does."""
+    """An axis that follows its pulses, from rest at a place on; `engine` goes through its ticks."""
 
-    def __init__(self, axis: Axis, origin_um: int, ticks: Ticks, engine: Engine = followed) -> None:
+    def __init__(self, axis: Axis, origin_um: int, ticks: Ticks, engine: Engine) -> None:
         place = float(origin_um)
         self.axis, self.record, self._engine = axis, _record_of(ticks, place), engine
         self._train = Train(np.array([np.inf]), np.array([place]))
@@ -121,7 +120,8 @@ class AxisRun:
         Both write their samples and slips into one place: who goes on later writes over what the other one wrote.
         """
         other, record = copy.copy(self), self.record
-        other.record = record._replace(bins=Bins(*map(np.copy, record.bins)), peaks=record.peaks.copy())
+        bins, peaks, swings = copy.deepcopy((record.bins, record.peaks, record.swings))
+        other.record = record._replace(bins=bins, peaks=peaks, swings=swings)
         return other
 
 
@@ -137,11 +137,12 @@ def _record_of(ticks: Ticks, place_um: float) -> Record:
         slip_s=np.zeros(_SLIPS),
         slip_um=np.zeros(_SLIPS),
         slip_at_um=np.zeros(_SLIPS),
+        swings=no_swings(),
     )
 
 
 class InBodies:
-    """An axis of a table of bodies: what `followed` of `sim.table.axis` is to a compiled one."""
+    """An axis of a table of bodies: what `sim.table.swings.followed` is to a compiled one."""
 
     def __init__(self, bodies: Bodies, name: AxisName) -> None:
         self._bodies, self._name = bodies, name

@@ -1,4 +1,4 @@
-"""The table at work: CPU time for a tick and a step, hours of cutting, a rapid run, a circular test, a trace's memory.
+"""The table at work: CPU time for a step, hours of cutting, a rapid run, a circular test, a trace's memory.
 
 The contour is 300 mm of lines and arcs, a rounded square in whole µm, in 40 mm steel. A smaller one is compared with
 its run in ticks of 0.1 ms, and through the reference engine.
@@ -93,14 +93,13 @@ def followed(run: Motion, times: int = 5) -> Followed:
     return Followed(min(taken), sum(len(pulses.t_s) for pulses in stretches), table.ticks)
 
 
-def tick_lines() -> list[str]:
-    """What a tick and a step take, how that grows, and how many times as long the reference takes."""
+def step_lines() -> list[str]:
+    """What a step takes, how that grows, and how many times as long the reference takes."""
     runs = {length: followed(cutting(length)) for length in (36.0, 108.0, 324.0)}
     small, large = runs[36.0], runs[324.0]
     slower = followed(small_in("pymunk"), 1).cpu_s / followed(small_in("compiled")).cpu_s
     return [
-        f"{'table, a tick':<20}{large.cpu_s / large.ticks * 1e9:.1f} ns, {large.ticks / large.steps:.1f} ticks a step, "
-        f"{large.cpu_s / large.steps * 1e9:.0f} ns a step",
+        f"{'table, a step':<20}{large.cpu_s / large.steps * 1e9:.0f} ns, {large.ticks / large.steps:.2f} ticks a step",
         f"{'table, growth':<20}exponent {math.log(large.cpu_s / small.cpu_s) / math.log(9.0):.2f} from 36 to 324 mm",
         f"{'table, in pymunk':<20}{slower:,.0f} times as long",
     ]
@@ -158,7 +157,7 @@ def table_lines(length_mm: float, part_mm: float) -> list[str]:
     """All that is measured, in lines to print."""
     memory = ", ".join(f"{peak_mib(spacing, length_mm):.0f} MiB at {spacing:g} µm" for spacing in (5.0, 50.0))
     return [
-        *tick_lines(),
+        *step_lines(),
         circle_line(),
         speed_line("table, cutting", cutting(length_mm), 1000.0),
         truth_line("table, cutting", cutting(part_mm), f"{part_mm:g} mm of {length_mm:g}"),

@@ -11,7 +11,7 @@ from typing import Final
 import numpy as np
 
 from parser.geometry.curves import Bools, Floats
-from sim.measure.deviation import Where, across, across_um
+from sim.measure.deviation import Where, across, across_um, farthest
 from sim.run.dryrun import DryRun
 from sim.setup.part import DEFAULT_TOLERANCE_UM
 from sim.show.draw import style
@@ -69,7 +69,7 @@ class Samples:
     def worst(self) -> int | None:
         """Sample of the wire's largest deviation in the cut; None where nothing was cut."""
         off = np.where(self.cutting, np.abs(self.wire_um), -1.0)
-        at = int(np.argmax(off))
+        at = farthest(off)
         return at if off[at] >= 0.0 else None
 
     @property

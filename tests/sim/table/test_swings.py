@@ -1,0 +1,126 @@
+"""A swing that is repeated is the one that its ticks make; at the feeds of cutting nearly all are repeated."""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+from depth import cases
+from table_runs import MODEL
+
+from controller.compiled.loops import compiled
+from parser.controller_words import Axis as AxisName
+from parser.geometry.curves import Floats
+from sim.setup.machine.machine import Motor, TableModel, load_machine
+from sim.table.axis import Axis, AxisDemand, State, due_s, recorded, ticked, waited
+from sim.table.history import PEAK_COLUMNS, VALUES, Record
+from sim.table.losses import Slip
+from sim.table.run import AxisRun, Engine, axis_of
+from sim.table.swings import followed
+from sim.table.ticks import SHAKEN_RAD, STEP_RAD, STEPS_RAD, Ticks, rhythm
+
+WITHIN_UM = 1e-4
+LOOSE_WITHIN_UM = 0.02
+"""Of a slide that coasts between the flanks of its nut, or whose motor slips: there neighbouring inputs part."""
+LENGTHS = slice(2, 4)
+"""Of the columns of bins: lag and following error, µm."""
+
+
+class Steps(NamedTuple):
+    """Pulses of one axis, and when its run ends."""
+
+    t_s: Floats
+    place_um: Floats
+    until_s: float
+
+
+@compiled("(Axis, AxisDemand, State, Record)", Axis, AxisDemand, State, Record)
+def tick_by_tick(axis: Axis, demand: AxisDemand, state: State, record: Record) -> State:
+    """What `sim.table.swings.followed` does, without any swing."""
+    while due_s(demand, state) < demand.until_s and state.noted.slip < len(record.slip_s):
+        if state.tripped_s < demand.braked_s:
+            break
+        until_s = due_s(demand, state)
+        now = waited(state, until_s) if until_s > state.slide.t_s else ticked(axis, demand, state)
+        state = recorded(axis, demand, state, now, record)
+    return state
+
+
+def ran(model: TableModel, steps: Steps, ticks: Ticks, engine: Engine) -> tuple[AxisRun, list[Slip]]:
+    """X after its pulses, which come in two parts, and its slips."""
+    run = AxisRun(axis_of(model, AxisName.X, ticks, np.array([-150.0, 1e5]), 1e4), 0, ticks, engine)
+    slips, half = [], len(steps.t_s) // 2
+    for part in (slice(None, half), slice(half, None)):
+        run.take(steps.t_s[part], steps.place_um[part])
+        slips += run.follow(steps.t_s[part][-1] - run.ahead_s, math.inf)
+    slips += run.follow(steps.until_s, math.inf)
+    run.rest(steps.until_s, math.inf)
+    return run, slips
+
+
+def ticks_of(model: TableModel, until_s: float, sample_s: float) -> Ticks:
+    """The ticks that a run would choose, with a shake in their midst."""
+    beats, t_s = rhythm(model), np.arange(sample_s, until_s, sample_s)
+    shaken = np.array([[until_s * 0.4, until_s * 0.45]])
+    phases = (beats.tick_s(phase) for phase in (STEP_RAD, STEPS_RAD, SHAKEN_RAD))
+    return Ticks(np.append(t_s, until_s), np.zeros(len(t_s) + 1, dtype=np.int64), shaken, *phases)
+
+
+def random_case(rng: np.random.Generator) -> tuple[TableModel, Steps]:
+    """Any table, steppers that slip among them; steps there and back, some slow enough to rest between, some not."""
+    servo = rng.random() < 0.3
+    motor = Motor(
+        kind="servo" if servo else "stepper",
+        step_time_s=float(rng.choice([0.0, 5e-4, 2e-3, 5e-3])),
+        electrical_period_um=6.0,
+        following_error_limit_um=60.0 if servo else np.inf,
+        force_curve=((0.0, 10.0 ** rng.uniform(1.3, 4.0)), (2000.0, 10.0 ** rng.uniform(1.3, 3.5))),
+    )
+    model = MODEL._replace(
+        saddle_mass_kg=rng.uniform(5.0, 300.0),
+        drive_stiffness_n_um=10.0 ** rng.uniform(0.3, 2.0),
+        drive_damping_ratio=rng.uniform(0.05, 1.5),
+        friction_n=(float(rng.choice([0.0, 5.0, 20.0, 60.0])), 0.0),
+        viscous_n_s_mm=(float(rng.choice([0.0, 2.0, 8.0])), 0.0),
+        backlash_um=(float(rng.choice([0.0, 0.5, 3.0])), 0.0),
+        motor=motor,
+    )
+    count = 400
+    gaps = np.full(count, 10.0 ** rng.uniform(-2.7, -1.0)) * rng.choice([1.0, 1.0, 1.3], count)
+    ways = np.where(np.arange(count) // int(rng.integers(20, 250)) % 2, -1.0, 1.0)
+    t_s = np.cumsum(gaps)
+    return model, Steps(t_s, np.cumsum(ways), float(t_s[-1]) + 0.5)
+
+
+@pytest.mark.deep
+@pytest.mark.parametrize("seed", cases(40, 4000))
+def test_an_axis_does_what_its_ticks_do(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    model, steps = random_case(rng)
+    ticks = ticks_of(model, steps.until_s, float(rng.choice([1e-3, 0.013, 0.2])))
+    (ours, our_slips), (plain, slips) = (ran(model, steps, ticks, engine) for engine in (followed, tick_by_tick))
+    assert ours.state.tripped_s == pytest.approx(plain.state.tripped_s, abs=1e-9)
+    within_um = LOOSE_WITHIN_UM if slips or model.backlash_um[0] else WITHIN_UM
+    assert [slip.amount_um for slip in our_slips] == [slip.amount_um for slip in slips]
+    assert [slip.at_um for slip in our_slips] == pytest.approx([slip.at_um for slip in slips], abs=within_um)
+    assert ours.record.sampled_um == pytest.approx(plain.record.sampled_um, abs=within_um)
+    for name in ("low", "high"):
+        columns = [getattr(run.record.bins, name).reshape(-1, VALUES)[:, LENGTHS] for run in (ours, plain)]
+        assert columns[0] == pytest.approx(columns[1], abs=within_um), name
+    area = [run.record.bins.area.reshape(-1, VALUES)[:, LENGTHS] for run in (ours, plain)]
+    assert area[0] == pytest.approx(area[1], abs=within_um * steps.until_s)
+    peaks = [run.record.peaks.reshape(-1, PEAK_COLUMNS)[:, 1:3] for run in (ours, plain)]
+    assert peaks[0] == pytest.approx(peaks[1], rel=1e-2, abs=within_um)
+
+
+@pytest.mark.parametrize("name", ["dk7732", "dk7740", "dk7750"])
+def test_at_the_feeds_of_cutting_nearly_all_swings_are_repeated(name: str) -> None:
+    """In 40 mm steel a step comes every 20 ms: by ticks each would take 20 of them and more."""
+    model = load_machine(name).table
+    number = np.arange(1.0, 5001.0)
+    t_s = 0.02 * number
+    steps = Steps(t_s, np.where(number < 3000.0, number, 6000.0 - number), 101.0)
+    ticks = Ticks(np.array([101.0]), np.zeros(1, dtype=np.int64), np.empty((0, 2)), *ticks_of(model, 101.0, 1.0)[3:])
+    ours, plain = (ran(model, steps, ticks, engine)[0].state.noted.ticks for engine in (followed, tick_by_tick))
+    assert plain > 10 * len(t_s)
+    assert ours < 0.5 * len(t_s)
