@@ -1,6 +1,7 @@
 """What a cut leaves: its kerf, the pieces that come free and how they can move, and the sizes of what is kept."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 from parser.program import Program
 from parser.shape.contours import Contour
@@ -14,40 +15,49 @@ from sim.setup.scenario import Scenario
 from sim.table.trace import Trace
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Remains:
     """What a run leaves of the work.
 
     Attributes
     ----------
+    toolpath, scenario
+        What was run, and how.
     kerf
         What the wire removed.
     pieces
         The frame, and what came free of it.
-    plays
-        How each of the pieces can move once it is free.
-    sizes
-        Of what is kept, as cut and nominal.
     """
 
+    toolpath: Toolpath
+    scenario: Scenario
     kerf: Kerf
     pieces: Pieces
-    plays: tuple[Play, ...]
-    sizes: Sizes
+
+    @cached_property
+    def plays(self) -> tuple[Play, ...]:
+        """How each of the pieces can move once it is free; RegionError where that could not be worked out."""
+        with cut_by_blocks(1, len(self.toolpath)):
+            return plays_of(self.pieces, self.scenario.wire.radius_um)
+
+    @cached_property
+    def sizes(self) -> Sizes:
+        """Sizes of what is kept, as cut and nominal; RegionError where they could not be worked out."""
+        with cut_by_blocks(1, len(self.toolpath)):
+            return sizes_of(self.toolpath, self.kerf, self.pieces, self.scenario.work_um)
+
+    def measured(self) -> "Remains":
+        """The same, its plays and its sizes worked out; RegionError where they could not be."""
+        _ = self.plays, self.sizes
+        return self
 
 
 def remains_of(program: Program, trace: Trace, contours: tuple[Contour, ...], scenario: Scenario) -> Remains:
-    """Kerf, pieces and sizes by where the wire really was; RegionError where they could not be worked out."""
+    """Kerf and pieces by where the wire really was; RegionError where they could not be worked out."""
     toolpath = program.toolpath
     with cut_by_blocks(1, len(toolpath)):
         kerf = kerf_of(toolpath, trace, contours, scenario.wire.reach_um)
-        pieces = _pieces(kerf, toolpath, scenario)
-        return Remains(
-            kerf=kerf,
-            pieces=pieces,
-            plays=plays_of(pieces, scenario.wire.radius_um),
-            sizes=sizes_of(toolpath, kerf, pieces, scenario.work_um),
-        )
+        return Remains(toolpath, scenario, kerf, _pieces(kerf, toolpath, scenario))
 
 
 def pieces_left(

@@ -111,7 +111,7 @@ def proved(given: ToProve, scenario: Scenario, progress: Progress = silent) -> P
     faults = (*_written_faults(given), *missing)
     none = Proof(None, given.written.off_um, None, None, (), faults, how.unproved, how.notes, how.scenario.wire)
     try:
-        run = dry_run(given.program, how.scenario, progress)
+        run = dry_run(given.program, how.scenario, progress, measured=False)
     except ProgramError as error:
         return none._replace(findings=(*error.others, error.finding))
     except SettingsError as error:
