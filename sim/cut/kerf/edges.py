@@ -1,14 +1,14 @@
 """The edges of the kerf beside each block, and the nominal kerf of a wire on the ideal path.
 
-The edges of the kerf beside each block: how far it reaches to the left and to the right of the ideal path.
+The edges are how far the kerf reaches to the left and to the right of the ideal path. It is measured at stations on the
+path, along the normal of each. The wire removes a disc about each of its places; the kerf reaches to where the normal
+leaves the farthest of these discs. Only the discs of the block itself count: at an inner corner the neighbouring block
+cuts on beyond this block's edge.
 
-It is measured at stations on the path, along the normal of each. The wire removes a disc about each of its places; the
-kerf reaches to where the normal leaves the farthest of these discs. Only the discs of the block itself count: at an
-inner corner the neighbouring block cuts on beyond this block's edge.
-
-The nominal kerf: what a wire on the ideal path would remove, as shapes along the blocks and sectors at corners.
+The nominal kerf is what a wire on the ideal path would remove, as shapes along the blocks and sectors at corners.
 """
 
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -26,6 +26,7 @@ from sim.cut.regions import Region, Regions, union_all
 _SPACING_UM = 20.0  # a fifth of the usual offset: discs smooth the edge over more than that
 _WHOLE = 0.05  # of a station: directions of programs in whole µm are off by so much
 _FEWEST_ON_ARC = 8  # stretches: a circle is found from the edge beside an arc, however short
+_TOGETHER = 1 << 16  # places of the wire
 _MOST_STATIONS = 20_000  # in a block, 400 mm: longer ones have them farther apart
 
 
@@ -110,19 +111,22 @@ def _stations(curves: Curves, rows: Ints) -> _Stations:
 
 def _reaches(curves: Curves, stations: _Stations, ways: tuple[WireWay, ...], offset_um: float) -> Floats:
     """How far (2, m) the discs of each station's own block reach to the left and to the right; −inf where none is."""
-    reaches = np.full((2, len(stations.row)), -np.inf)
-    if not ways:
-        return reaches
-    row, place = (
-        np.concatenate(column) for column in zip(*((wire_way.row, wire_way.place_um) for wire_way in ways), strict=True)
-    )
-    nearest = np.rint(_along_um(curves, row, place) / stations.spacing_um[row]).astype(np.int64)
-    low, past = stations.first[row], stations.first[row] + stations.number[row]
+    reaches, station = np.full((2, len(stations.row)), -np.inf), np.hstack([stations.place_um, stations.left])
     # A block with more than the fewest stations has them more than half the usual spacing apart: no disc meets more.
     most = max(int(np.ceil(2.0 * offset_um / _SPACING_UM)) + 1, _FEWEST_ON_ARC)
-    met = np.stack([np.maximum(low + nearest - most, low), np.minimum(low + nearest + most + 1, past)], axis=1)
-    _raise_to_discs(place, met, np.hstack([stations.place_um, stations.left]), offset_um, reaches)
+    for row, place in _places(ways):
+        nearest = np.rint(_along_um(curves, row, place) / stations.spacing_um[row]).astype(np.int64)
+        low, past = stations.first[row], stations.first[row] + stations.number[row]
+        met = np.stack([np.maximum(low + nearest - most, low), np.minimum(low + nearest + most + 1, past)], axis=1)
+        _raise_to_discs(place, met, station, offset_um, reaches)
     return reaches
+
+
+def _places(ways: tuple[WireWay, ...]) -> Iterator[tuple[Ints, Floats]]:
+    """Rows (p,) and places (p, 2) of the ways, some at a time: what is worked out of each takes ten times its room."""
+    for way in ways:
+        for low in range(0, len(way.row), _TOGETHER):
+            yield way.row[low : low + _TOGETHER], way.place_um[low : low + _TOGETHER]
 
 
 @compiled("void(f8[:,::1], i8[:,::1], f8[:,::1], f8, f8[:,::1])")

@@ -1,7 +1,7 @@
 """Stars: the union of the discs about the places of one stretch of the wire's way, as a polygon.
 
 Seen from the middle of the stretch, a ray along the unit vector u leaves the disc of radius r about a place p at
-p·u + √(r² − (p×u)²). The star ends at the farthest of these. Then corners are left out that lie within 0.01 µm of
+p·u + √(r² − (p×u)²). The star ends at the farthest of these. Then corners are left out that lie within 0.02 µm of
 the border without them (D. H. Douglas, T. K. Peucker, Cartographica 10 (1973) 112). A star stays one: its corners stay
 in the order of their rays.
 """
@@ -15,7 +15,7 @@ from controller.compiled.loops import compiled
 from parser.geometry.curves import Bools, Floats, Ints
 from sim.cut.regions import Regions
 
-SIMPLER_UM: Final = 0.01
+SIMPLER_UM: Final = 0.02
 """Borders of stars are simplified by so much, once: all that is made of them lies as near to the real edge."""
 
 _SCALLOP_UM: Final = 0.02  # left standing between two rays

@@ -47,34 +47,38 @@ class Swept(NamedTuple):
         (s,) int64, first place of each stretch.
     is_band
         (s,) bool, whether it is swept as a band; else as a star.
-    levels
-        Regions of the stretches, then of up to eight of these, and so on up to the whole.
+    offset_um
+        Half the width that the wire cuts.
+    joined
+        Regions of up to eight stretches, then of up to eight of these, and so on up to the whole. Those of single
+        stretches are made again where they are looked at: all of them take most of the memory of a run.
     boxes
-        (…, 4) float64 of each level: lowest x and y, highest x and y of its regions.
+        (…, 4) float64 of the stretches, and of each level: lowest x and y, highest x and y of its regions.
     """
 
     way: WireWay
     first: Ints
     is_band: Bools
-    levels: tuple[Regions, ...]
+    offset_um: float
+    joined: tuple[Regions, ...]
     boxes: tuple[Floats, ...]
 
     @property
     def region_um(self) -> Region:
         """The whole, empty where the wire did not come."""
-        whole: Region = self.levels[-1][0] if len(self.levels[0]) else shapely.Polygon()
+        whole: Region = self.joined[-1][0] if self.joined else shapely.Polygon()
         return whole
 
-    def up_to(self, stretch: int, at: int, offset_um: float) -> Region:
+    def up_to(self, stretch: int, at: int) -> Region:
         """What is swept on a stretch up to one of its places, by its index on the way; that is the first at least."""
         bounds, place_um = np.array([[self.first[stretch], at + 1]]), self.way.place_um
         if not self.is_band[stretch]:
             whole = np.append(self.first, len(self.way.row))[None, stretch : stretch + 2]
-            made = stars(place_um, bounds, middles(self.way, whole), offset_um)
-        elif np.hypot(*(place_um[at] - place_um[bounds[0, 0]])) <= offset_um:  # too short to tell where it leads
-            made = stars(place_um, bounds, place_um[bounds[:, 0]], offset_um)
+            made = stars(place_um, bounds, middles(self.way, whole), self.offset_um)
+        elif np.hypot(*(place_um[at] - place_um[bounds[0, 0]])) <= self.offset_um:  # too short to tell where it leads
+            made = stars(place_um, bounds, place_um[bounds[:, 0]], self.offset_um)
         else:
-            made = bands(place_um, bounds, offset_um)
+            made = bands(place_um, bounds, self.offset_um)
         region: Region = made[0]
         return region
 
@@ -83,19 +87,26 @@ class Swept(NamedTuple):
 
         Of the eights, those that lie in a box of three times the size are given as one.
         """
-        larger, found = _larger(box), list[Region]()
-        todo = [(len(self.levels) - 1, 0)]
+        larger, found, single = _larger(box), list[Region](), list[int]()
+        todo = [(len(self.joined), 0)]
         while todo:
             level, at = todo.pop()
             low, high = at << _KEPT * level, min((at + 1) << _KEPT * level, len(self.first))
             if low >= past or high <= first or not _meet(own := tuple(self.boxes[level][at].tolist()), box):
                 continue
-            if level == 0 or (low >= first and high <= past and _holds(larger, own)):
-                found.append(self.levels[level][at])
+            if level == 0:
+                single.append(at)
+            elif low >= first and high <= past and _holds(larger, own):
+                found.append(self.joined[level - 1][at])
             else:
-                past_it = min((at + 1) << _KEPT, len(self.levels[level - 1]))
+                past_it = min((at + 1) << _KEPT, len(self.boxes[level - 1]))
                 todo += [(level - 1, each) for each in reversed(range(at << _KEPT, past_it))]
-        return found
+        return [*found, *self._of_stretches(np.array(single, dtype=np.int64))]
+
+    def _of_stretches(self, at: Ints) -> Regions:
+        """Regions (k,) of some stretches."""
+        bounds = np.stack([self.first[at], np.append(self.first, len(self.way.row))[at + 1]], axis=1)
+        return _regions(self.way, bounds, self.is_band[at], self.offset_um)
 
     def places_near(self, box: Box) -> Ints:
         """Indices of the places on the way, in order, on stretches whose regions come near a box.
@@ -129,12 +140,18 @@ def swept_along(curves: Curves, way: WireWay, offset_um: float) -> Swept:
     """The region that a wire with this offset sweeps on its way along the rows of some curves."""
     first, is_band = _stretches(way, _longest_um(curves, offset_um), offset_um)
     bounds = np.stack([first, np.append(first, len(way.row))[1:]], axis=1)
-    regions = np.empty(len(first), dtype=np.object_)
+    regions = _regions(way, bounds, is_band, offset_um)
+    joined = _joined(regions)
+    boxes = tuple(np.asarray(shapely.bounds(level)).reshape(-1, 4) for level in (regions, *joined))
+    return Swept(way, first, is_band, offset_um, joined, boxes)
+
+
+def _regions(way: WireWay, bounds: Ints, is_band: Bools, offset_um: float) -> Regions:
+    """Regions (s,) of stretches, by their `bounds` (s, 2)."""
+    regions = np.empty(len(bounds), dtype=np.object_)
     regions[is_band] = bands(way.place_um, bounds[is_band], offset_um)
     regions[~is_band] = stars(way.place_um, bounds[~is_band], middles(way, bounds[~is_band]), offset_um)
-    levels = _levels(regions)
-    boxes = tuple(np.asarray(shapely.bounds(level)).reshape(-1, 4) for level in levels)
-    return Swept(way, first, is_band, levels, boxes)
+    return regions
 
 
 def _longest_um(curves: Curves, offset_um: float) -> Floats:
@@ -178,13 +195,15 @@ def middles(way: WireWay, bounds: Ints) -> Floats:
     return middle
 
 
-def _levels(regions: Regions) -> tuple[Regions, ...]:
-    levels, last, joined = [regions], regions, 0
+def _joined(regions: Regions) -> tuple[Regions, ...]:
+    levels, last, times = list[Regions](), regions, 0
     while len(last) > 1:
         pairs = unions(last[:-1:2], last[1::2])
-        last, joined = np.append(pairs, last[-1:]) if len(last) % 2 else pairs, joined + 1
-        if joined % _KEPT == 0 or len(last) == 1:
+        last, times = np.append(pairs, last[-1:]) if len(last) % 2 else pairs, times + 1
+        if times % _KEPT == 0:
             levels.append(last)
+    if (len(last) and times % _KEPT) or len(regions) == 1:
+        levels.append(last)
     return tuple(levels)
 
 

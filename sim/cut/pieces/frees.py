@@ -142,7 +142,7 @@ def _within(
     before, low, high = hung, first - 1, past - 1
     while high - low > 1:
         at = (low + high) // 2
-        after = question.part_left(before, swept.up_to(stretch, at, offset_um))
+        after = question.part_left(before, swept.up_to(stretch, at))
         if question.is_free(after):
             high, piece = at, after
         else:
