@@ -148,15 +148,25 @@ def _raise_to_discs(place: Floats, met: Ints, station: Floats, offset: float, re
 
 def _along_um(curves: Curves, row: Ints, place_um: Floats) -> Floats:
     """Distances (m,) of places (m, 2) along their blocks: projected on a line, or by angle about an arc's centre."""
-    heading = headings(curves, row, np.zeros(len(row)))
-    out = np.where(curves.is_arc[row][:, None], place_um - curves.center_um[row], place_um - curves.start_um[row])
-    sweep = curves.sweep_rad[row]
+    is_arc = curves.is_arc[row]
+    along = np.empty(len(row))
+    along[~is_arc] = _along_lines_um(curves, row[~is_arc], place_um[~is_arc])
+    along[is_arc] = _along_arcs_um(curves, row[is_arc], place_um[is_arc])
+    return along
+
+
+def _along_lines_um(curves: Curves, row: Ints, place_um: Floats) -> Floats:
+    along: Floats = ((place_um - curves.start_um[row]) * headings(curves, row, np.zeros(len(row)))).sum(axis=1)
+    return along
+
+
+def _along_arcs_um(curves: Curves, row: Ints, place_um: Floats) -> Floats:
+    """An angle outside the arc is counted from the nearer end."""
+    out, sweep = place_um - curves.center_um[row], curves.sweep_rad[row]
     turned = (np.arctan2(out[:, 1], out[:, 0]) - curves.start_angle_rad[row]) * np.sign(sweep)
-    reach = np.minimum(np.abs(sweep), 2.0 * np.pi)
-    # An angle outside the arc is counted from the nearer end.
-    before = -0.5 * (2.0 * np.pi - reach)
-    angle = np.mod(turned - before, 2.0 * np.pi) + before
-    return np.where(curves.is_arc[row], angle * curves.radius_um[row], (out * heading).sum(axis=1))
+    before = -0.5 * (2.0 * np.pi - np.minimum(np.abs(sweep), 2.0 * np.pi))
+    along: Floats = (np.mod(turned - before, 2.0 * np.pi) + before) * curves.radius_um[row]
+    return along
 
 
 def _margins(curves: Curves, cut: NDArray[np.bool_], offset_um: float) -> Floats:
