@@ -3,7 +3,8 @@ FROM python:3.11-slim AS build
 COPY . /source
 RUN python -m venv /opt/drycut \
  && /opt/drycut/bin/pip install --no-cache-dir --require-hashes --requirement /source/requirements-all-lock.txt \
- && /opt/drycut/bin/pip install --no-cache-dir --no-deps /source \
+ && /opt/drycut/bin/pip install --no-cache-dir --require-hashes --requirement /source/requirements-build-lock.txt \
+ && /opt/drycut/bin/pip install --no-cache-dir --no-deps --no-build-isolation /source \
  && NUMBA_CACHE_DIR=/opt/drycut/loops /opt/drycut/bin/python -m sim.cli.compile
 
 FROM python:3.11-slim

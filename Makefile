@@ -94,6 +94,9 @@ lock: $(READY)
 		--generate-hashes --no-header --output-file requirements-all-lock.txt pyproject.toml
 	$(BIN)/uv pip compile --quiet --universal --python-version 3.11 \
 		--generate-hashes --no-header --output-file requirements-core-lock.txt pyproject.toml
+	$(BIN)/python -c "import tomllib; print(*tomllib.load(open('pyproject.toml', 'rb'))['build-system']['requires'])" | \
+		$(BIN)/uv pip compile --quiet --universal --python-version 3.11 --constraint requirements-lock.txt \
+		--generate-hashes --no-header --output-file requirements-build-lock.txt -
 
 # What a release consists of, in `dist/`: the packages, locks of the core and of all extras, and an SBOM of what they
 # install, with licences.

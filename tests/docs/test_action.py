@@ -6,12 +6,14 @@ import re
 import shutil
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 import pytest
 from places import ROOT
 
 CHECK = ROOT / ".github" / "action-check.sh"
+INSTALL = ROOT / ".github" / "action-install.sh"
 BASH = shutil.which("bash")
 pytestmark = pytest.mark.skipif(BASH is None, reason="the action's scripts are for bash")
 
@@ -115,11 +117,58 @@ def test_every_input_is_handed_over_and_none_is_in_a_script() -> None:
     inputs = re.findall(r"^  ([a-z-]+):$", text.split("\noutputs:")[0].split("\ninputs:")[1], re.MULTILINE)
     assert len(inputs) == 11
     script = CHECK.read_text("utf-8")
-    for name in set(inputs) - {"python-version"}:
+    for name in set(inputs) - {"python"}:
         variable = f"INPUT_{name.upper().replace('-', '_')}"
         assert f"{variable}: ${{{{ inputs.{name} }}}}\n" in text
         assert f"${variable}" in script
     assert not [line for line in text.splitlines() if "run:" in line and "${{" in line]
+
+
+def test_it_is_pinned_by_its_own_commit() -> None:
+    """It uses no action whose name may mean something else tomorrow, and no package without a hash."""
+    assert "uses:" not in (ROOT / "action.yml").read_text("utf-8")
+    installs = [line for line in INSTALL.read_text("utf-8").splitlines() if line.startswith("pip ")]
+    for line in installs:
+        assert "--require-hashes" in line or ("--no-deps" in line and "--no-build-isolation" in line), line
+    backend = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["build-system"]["requires"]
+    locked = (ROOT / "requirements-build-lock.txt").read_text("utf-8")
+    for requirement in backend:
+        assert re.search(rf"^{re.split('[<>=~]', requirement)[0]}==\S+ ", locked, re.MULTILINE), requirement
+
+
+@pytest.mark.parametrize(("named", "taken"), [("", "python3.12"), ("my python", "my python")])
+def test_it_takes_the_first_python_that_is_new_enough(tmp_path: Path, named: str, taken: str) -> None:
+    installed = run_install(tmp_path, {"python3": 1, "python": 1, "python3.12": 0, "my python": 0}, named)
+    assert installed.returncode == 0
+    assert (tmp_path / "calls").read_text("utf-8").splitlines()[0].startswith(f"{taken} -m venv --clear ")
+    assert (tmp_path / "env").read_text("utf-8").startswith("DRYCUT=")
+
+
+@pytest.mark.parametrize("named", ["", "python3"])
+def test_without_a_python_that_is_new_enough_it_says_so(tmp_path: Path, named: str) -> None:
+    refused = run_install(tmp_path, {"python3": 1, "python3.12": 0 if named else 1}, named)
+    assert (refused.returncode, refused.stdout.count("\n")) == (2, 1)
+    assert refused.stdout.startswith("::error::drycut needs Python 3.11 or newer")
+
+
+def run_install(folder: Path, pythons: dict[str, int], named: str) -> subprocess.CompletedProcess[str]:
+    """The script that installs, with stubs as the only Pythons: each is new enough (0) or not (1)."""
+    stubs, home = folder / "stubs", folder / "temporary"
+    for each in (stubs, home / "drycut-venv" / "bin"):
+        each.mkdir(parents=True)
+    for name, status in pythons.items():
+        write_program(stubs / name, f'[ "$1" = -c ] && exit {status}; echo "{name} $*" >> "$CALLS"')
+    write_program(home / "drycut-venv" / "bin" / "python", 'echo "pip $*" >> "$CALLS"')
+    for program in ("bash", "env"):
+        (stubs / program).symlink_to(str(shutil.which(program)))
+    env = {"PATH": str(stubs), "CALLS": str(folder / "calls"), "GITHUB_ENV": str(folder / "env")}
+    env |= {"RUNNER_TEMP": str(home), "DRYCUT_ACTION": str(ROOT), "INPUT_PYTHON": named}
+    return subprocess.run([str(BASH), str(INSTALL)], check=False, env=env, capture_output=True, text=True)
+
+
+def write_program(path: Path, line: str) -> None:
+    path.write_text(f"#!{BASH}\n{line}\n", "utf-8")
+    path.chmod(0o755)
 
 
 def test_the_hook_takes_programs_alone() -> None:

@@ -218,7 +218,7 @@ def test_the_action_is_given_inputs_that_it_has_and_its_output_is_taken_up(shop:
     told = {name: default for name, default in listed.items() if name in action["inputs"]}
     assert set(told) == set(action["inputs"])
     for name, default in told.items():
-        assert default in {"theirs", "none", f"`{action['inputs'][name]['default']}`"}
+        assert default in {"theirs", "none", "the runner's own", f"`{action['inputs'][name]['default']}`"}
     _, check, upload = WITH_ACTION["jobs"]["drycut"]["steps"]
     given = check["with"]
     assert set(given) <= set(action["inputs"])

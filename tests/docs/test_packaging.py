@@ -21,7 +21,7 @@ from drycut import __version__
 from parser.findings.codes import CODES
 from sim.show.terminal.markdown import files
 
-LOCKS = ("requirements-core-lock.txt", "requirements-all-lock.txt", "requirements-lock.txt")
+LOCKS = tuple(f"requirements-{of}lock.txt" for of in ("build-", "core-", "all-", ""))
 OWN = {"test", "docs"}
 """Extras of those who change drycut."""
 
@@ -113,6 +113,7 @@ def test_the_core_is_locked_to_the_same_versions_and_each_package_by_its_hashes(
     assert {requirement.split(">=")[0] for requirement in project()["dependencies"]} <= {name for name, _ in core}
     assert core <= every
     assert core <= versions("requirements-all-lock.txt") <= every
+    assert versions("requirements-build-lock.txt") <= every
     for name in LOCKS:
         entries = re.split(r"^(?=[a-z])", (ROOT / name).read_text("utf-8"), flags=re.MULTILINE)[1:]
         assert [entry.split()[0] for entry in entries if "--hash=sha256:" not in entry] == []

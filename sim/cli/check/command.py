@@ -168,11 +168,7 @@ def _done(mode: str, work: "_Work", found: "Jobs") -> int:
     if mode in ("--show-files", "--show-settings"):
         from sim.cli.check.jobs import show_files, show_settings
 
-        if mode == "--show-files":
-            show_files(found, language)
-        else:
-            show_settings(found, work.options, language)
-        return 0
+        return show_files(found, language) if mode == "--show-files" else show_settings(found, work.options, language)
     if mode == "--diff":
         from sim.cli.check.mends import show_diffs
 

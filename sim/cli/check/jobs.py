@@ -14,10 +14,10 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple
 import click
 
 from parser.dialect.reader import ChosenDialect, merged
-from parser.files import read_stdin
-from parser.findings.catalogue import Language
+from parser.files import read_bytes, read_stdin
+from parser.findings.catalogue import Language, in_language
 from parser.findings.codes import CODES
-from parser.findings.errors import Message
+from parser.findings.errors import FileUnreadableError, Message
 from parser.text.encoding import printable
 from parser.text.places import cells
 from parser.units import mm
@@ -267,15 +267,15 @@ def passed_over_text(names: Sequence[str], language: Language) -> str:
     return words("findings.passed-over" if len(names) > 1 else "findings.one-passed-over", n=len(names), kinds=listed)
 
 
-def show_files(found: Jobs, language: Language) -> None:
-    """Print the name of each file that would be checked; on stderr, what is passed over."""
+def show_files(found: Jobs, language: Language) -> int:
+    """Print the name of each file that would be checked; on stderr, what is passed over or missing; the exit code."""
     for job in found.jobs:
         say(printable(job.name))
-    _end(found, language)
+    return _end(found, language)
 
 
-def show_settings(found: Jobs, options: CheckOptions, language: Language) -> None:
-    """Print with which settings the files would be checked, and what gave each.
+def show_settings(found: Jobs, options: CheckOptions, language: Language) -> int:
+    """Print with which settings the files would be checked, and what gave each; the exit code.
 
     Files with the same settings stand together.
     """
@@ -288,13 +288,27 @@ def show_settings(found: Jobs, options: CheckOptions, language: Language) -> Non
         say(Words(language)(key, file=first, n=len(others)))
         for line in lines:
             say(f"  {line}")
-    _end(found, language)
+    return _end(found, language)
 
 
-def _end(found: Jobs, language: Language) -> None:
+def _end(found: Jobs, language: Language) -> int:
     passed = passed_over_text(found.passed_over, language)
     if passed:
         say(passed, err=True)
+    missing = list(_missing(found))
+    for error in missing:
+        say(Words(language)("commands.error", message=in_language(error.in_both(), language)), err=True)
+    return 2 if missing else 0
+
+
+def _missing(found: Jobs) -> Iterator[FileUnreadableError]:
+    """What is wrong with files that are named and are not there."""
+    for job in found.jobs:
+        if isinstance(job.source, Path) and not job.source.exists():
+            try:
+                read_bytes(job.source)
+            except FileUnreadableError as error:
+                yield error
 
 
 def _lines(settings: CheckSettings, near: SettingsFile, options: CheckOptions, words: Words) -> Iterator[str]:

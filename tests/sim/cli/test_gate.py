@@ -50,6 +50,14 @@ def test_included_files_are_checked_whatever_they_end_in(shop: Path) -> None:
     assert (code, "include" in err) == (2, True)
 
 
+@pytest.mark.parametrize("mode", ["--show-files", "--show-settings"])
+def test_a_file_that_is_named_and_is_not_there_is_told(shop: Path, mode: str) -> None:
+    code, out, err = drycut("check", "a.3b", "none.3b", mode, cwd=shop)
+    assert (code, "a.3b" in out) == (2, True)
+    assert err == "drycut: error: none.3b: cannot be read: No such file or directory\n"
+    assert drycut("check", "a.3b", mode, cwd=shop)[0] == 0
+
+
 def test_the_settings_that_count_are_shown_with_what_gave_them(shop: Path) -> None:
     (shop / "b.3b").write_text(WRONG_AXIS, "ascii")
     (shop / "drycut.toml").write_text('fail_on = "warning"\n[per_file_ignores]\n"b.3b" = ["3B2"]\n', "ascii")
