@@ -230,6 +230,8 @@ class Strips(NamedTuple):
         (k,) which strip each place is of, rising.
     side
         (k,) −1 where the part is gouged, +1 where material is left.
+    tolerance_um
+        What may be off.
     """
 
     drawn: tuple[Curves, ...]
@@ -237,6 +239,7 @@ class Strips(NamedTuple):
     foot_um: Floats
     strip: Ints
     side: Ints
+    tolerance_um: float
 
     @property
     def widest_um(self) -> float:
@@ -257,4 +260,5 @@ def strips_of(comparison: Comparison) -> Strips | None:
     place = places(edge, rows[strip], number / parts[strip])
     foot = feet(comparison.laid, nearest(indexed(comparison.laid), place).row, place).place_um
     side = comparison.edge_side[rows].astype(np.int64)[strip]
-    return Strips(tuple(laid_loops(comparison.drawing, comparison.placement)), place, foot, strip, side)
+    drawn = tuple(laid_loops(comparison.drawing, comparison.placement))
+    return Strips(drawn, place, foot, strip, side, comparison.request.tolerance_um)

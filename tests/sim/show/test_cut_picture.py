@@ -120,7 +120,8 @@ def test_sizes_of_the_path_are_those_worked_out_from_the_kerf(path: Toolpath) ->
     measured = sizes_of_cut(cut_of(path, sizes=sizes_of(path, kerf, pieces_along(path), None)))
     plain = sizes_of_cut(cut_of(path))
     assert measured.box_um == pytest.approx(plain.box_um, abs=0.1)
-    assert [one.text for one in measured.rounds] == [one.text for one in plain.rounds]
+    say = recording_sheet().say
+    assert [each.text(say) for each in measured.rounds] == [each.text(say) for each in plain.rounds]
 
 
 @pytest.mark.parametrize("path", [punch(), die(7000.0), rounded()])

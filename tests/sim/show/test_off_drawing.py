@@ -1,11 +1,14 @@
 """What is drawn of a cut that is off its drawing: strips as wide as it is off, or so many times as wide as it says."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import shapely
 from recorder import Recorder, recording_sheet
 from runs import scenario_recording, scenario_run
 
+from parser.geometry.curves import Curves
 from sim.measure.compare.result import Strips, strips_of
 from sim.run.dryrun import DryRun
 from sim.run.recording import pieces_of_run
@@ -13,6 +16,7 @@ from sim.show.draw.style import Paint
 from sim.show.pictures.cut.lines import times_wider
 from sim.show.pictures.cut.of_run import cut_of_run, draw_cut_of_run
 from sim.show.pictures.cut.picture import Shapes, layout_of
+from sim.show.pictures.cut.sizes import sizes_of_cut
 from sim.show.replay.document import replay_document
 
 
@@ -63,6 +67,42 @@ def test_what_is_too_thin_to_be_seen_is_drawn_wider_and_says_so(wrong: DryRun) -
     page = layout_of(sheet, cut_of_run(wrong, None, sheet.say, Shapes())).page
     assert (times_wider(off, page), times_wider(thin, page)) == (1, 20)
     assert thin.widest_um * page.view.px_per_um * 20 >= 7.0 * page.unit
+
+
+def test_sizes_that_are_off_stand_beside_those_that_are_drawn(wrong: DryRun) -> None:
+    """The wire runs 0.1 mm outside of the opening of 10 mm by 6 mm with R 1, and cuts 0.1 mm farther: 0.2 mm a side."""
+    texts = drawn(wrong).texts
+    assert {"10.397, drawn 10", "6.398", "drawn 6", "4× R 1.199, drawn 1"} <= set(texts)
+    assert "10.4" not in texts, "what the program means is no size of the drawing"
+
+
+def test_sizes_within_the_tolerance_are_those_that_are_meant(wrong: DryRun) -> None:
+    off = off_of(wrong)
+    cut = cut_of_run(wrong, None, recording_sheet().say, Shapes())
+    loose = sizes_of_cut(cut._replace(off=off._replace(tolerance_um=400.0)))
+    assert loose.off == (None, None)
+    assert [each.off for each in loose.rounds] == [None]
+    strict = sizes_of_cut(cut._replace(off=off._replace(tolerance_um=397.6)))
+    assert [each is None for each in strict.off] == [True, False], "397.5 and 398.0 µm off"
+    assert not [text for text in drawn(scenario_run("die")).texts if "drawn" in text]
+
+
+def test_a_drawing_far_from_a_size_says_nothing_of_it(wrong: DryRun) -> None:
+    off = off_of(wrong)
+    cut = cut_of_run(wrong, None, recording_sheet().say, Shapes())
+    for elsewhere in (tuple(moved(loop, 5000.0) for loop in off.drawn), ()):
+        sizes = sizes_of_cut(cut._replace(off=off._replace(drawn=elsewhere)))
+        assert sizes.off == (None, None)
+        assert [each.off for each in sizes.rounds] == [None]
+
+
+def moved(curves: Curves, by_um: float) -> Curves:
+    return replace(
+        curves,
+        start_um=curves.start_um + by_um,
+        end_um=curves.end_um + by_um,
+        center_um=curves.center_um + by_um,
+    )
 
 
 def test_a_replay_has_the_drawing_where_there_is_one() -> None:

@@ -1,16 +1,17 @@
 """Sizes of what is kept: which ones a picture gives, and how they are drawn.
 
-Which sizes a picture gives: width and height of what is kept, and its largest radii, as they are meant to be.
+A picture gives width and height of what is kept, and its largest radii, as they are meant to be. Where a cut is off its
+drawing it gives a size as cut, and beside it the one that is drawn.
 
-Sizes drawn as on a drawing: lines with arrows outside of the part, and leaders to radii.
+They are drawn as on a drawing: lines with arrows outside of the part, and leaders to radii.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 import numpy as np
 
-from parser.geometry.curves import Floats, Ints
+from parser.geometry.curves import Floats, Ints, joined
 from parser.shape.contours import contour_rows
 from parser.shape.loops import Loops, find_loops
 from parser.toolpath import Toolpath
@@ -21,44 +22,64 @@ from sim.show.draw.flatten import along, bounds_um, flatten
 from sim.show.draw.layout import Box, Margins, Page, box_around
 from sim.show.draw.style import Paint
 from sim.show.pictures.cut.subject import Board, Cut
+from sim.show.texts import Words
 
 if TYPE_CHECKING:  # of a path none are known, and their rooms take long to load
     from sim.cut.pieces.pieces import Pieces
-    from sim.cut.sizes import Sizes
+    from sim.cut.sizes import RadiusSize, Sizes
+    from sim.measure.compare.result import Strips
 
 
 LEAST_SWEEP_RAD: Final = np.radians(30.0)
 _WHOLE_RAD: Final = np.radians(359.0)
 _SAME_UM: Final = 10.0  # centres this near are one
 _ORIENTATION_UM: Final = 10.0  # chords that tell which way a loop turns
+_MEANT: Final = 0.25  # of a size, by which it may differ from the one that is drawn
+
+
+class OffSize(NamedTuple):
+    """A size that is off the drawing: as cut, and as drawn, µm."""
+
+    cut_um: float
+    drawn_um: float
 
 
 class Round(NamedTuple):
-    """Arcs of one nominal radius µm: their rows, how many circles or corners they are, and whether whole circles."""
+    """Arcs of one nominal radius µm: their rows, how many circles or corners they are, and whether whole circles.
+
+    `off` has the radius of the one that is farthest off the drawing; None where none is off.
+    """
 
     radius_um: float
     rows: Ints
     number: int
     whole: bool
+    off: OffSize | None = None
 
-    @property
-    def text(self) -> str:
-        """A size such as ``2× Ø 10`` or ``R 2.5``."""
-        size = f"Ø {length_text(2.0 * self.radius_um)}" if self.whole else f"R {length_text(self.radius_um)}"
-        return size if self.number == 1 else f"{self.number}× {size}"
+    def text(self, say: Words) -> str:
+        """A size such as ``2× Ø 10`` or ``R 2.5``; one that is off such as ``R 2.413, drawn 2.5``."""
+        times = 2.0 if self.whole else 1.0
+        size = length_text(times * self.radius_um)
+        if self.off is not None:
+            cut, drawn = (length_text(times * radius_um) for radius_um in self.off)
+            size = say("cut.off_size", size=cut, drawn=drawn)
+        sign = "Ø" if self.whole else "R"
+        return f"{sign} {size}" if self.number == 1 else f"{self.number}× {sign} {size}"
 
 
 class CutSizes(NamedTuple):
     """Sizes to be shown: a box (2, 2) µm, None where there is none, and radii on arcs of `path`, the largest first.
 
     There is no box where nothing closes, or where all of it goes into the kerf. With `of_path` the box is that of the
-    path: nothing tells on which side of it the part lies.
+    path: nothing tells on which side of it the part lies. Width and height are `off` the drawing, None where they are
+    not.
     """
 
     box_um: Floats | None
     rounds: tuple[Round, ...]
     path: Toolpath
     of_path: bool
+    off: tuple[OffSize | None, OffSize | None] = (None, None)
 
 
 class _Arcs(NamedTuple):
@@ -76,18 +97,52 @@ def length_text(length_um: float) -> str:
 def sizes_of_cut(cut: Cut) -> CutSizes:
     """Sizes of what a cut keeps: those that were worked out, else those of the path, the offset taken off or added."""
     if cut.sizes is not None and cut.sizes.boxes:
-        return _measured(cut.toolpath, cut.sizes)
+        return _measured(cut.toolpath, cut.sizes, cut.off)
     if cut.contour is not None:
         return _of_path(cut.contour, 0.0, cut.pieces)
     return _of_path(cut.toolpath, cut.kerf_um / 2, cut.pieces)
 
 
-def _measured(toolpath: Toolpath, sizes: "Sizes") -> CutSizes:
+def _measured(toolpath: Toolpath, sizes: "Sizes", off: "Strips | None") -> CutSizes:
     box = max(sizes.boxes, key=lambda each_box: each_box.nominal_um.x * each_box.nominal_um.y)
     half, centre = np.array(box.nominal_um) / 2, np.array(box.center_um)
     row = np.array([each.block - 1 for each in sizes.radii], dtype=np.int64)
     arcs = _Arcs(row, np.array([each.nominal_um for each in sizes.radii], dtype=np.float64))
-    return CutSizes(np.stack([centre - half, centre + half]), _rounds(toolpath, arcs), toolpath, of_path=False)
+    measured = CutSizes(np.stack([centre - half, centre + half]), _rounds(toolpath, arcs), toolpath, of_path=False)
+    if off is None or not off.drawn:
+        return measured
+    radii = {each.block - 1: _radius_off(each, off) for each in sizes.radii}
+    rounds = [each._replace(off=_worst(radii[at] for at in each.rows.tolist())) for each in measured.rounds]
+    cut_um = np.array(box.cut_um)
+    return measured._replace(rounds=tuple(rounds), off=_widths_off(cut_um, centre + np.outer([-0.5, 0.5], cut_um), off))
+
+
+def _widths_off(cut_um: Floats, box_um: Floats, off: "Strips") -> tuple[OffSize | None, OffSize | None]:
+    """Widths (2,) of a cut box (2, 2) that are off those of the loop that is drawn about there."""
+    boxes = np.array([bounds_um(loop) for loop in off.drawn])
+    apart = np.abs(boxes - box_um).max(axis=(1, 2))
+    nearest = int(np.argmin(apart))
+    if apart[nearest] > _MEANT * cut_um.min():
+        return None, None
+    x, y = zip(cut_um.tolist(), (boxes[nearest, 1] - boxes[nearest, 0]).tolist(), strict=True)
+    return _off(*x, off), _off(*y, off)
+
+
+def _radius_off(size: "RadiusSize", off: "Strips") -> OffSize | None:
+    """A radius that is off that of the arc that is drawn about there."""
+    arcs = joined([loop.picked(loop.is_arc) for loop in off.drawn])
+    apart = np.hypot(*(arcs.center_um - np.array(size.center_um)).T) + np.abs(arcs.radius_um - size.cut_um)
+    if not len(apart) or apart.min() > _MEANT * size.cut_um:
+        return None
+    return _off(size.cut_um, float(arcs.radius_um[np.argmin(apart)]), off)
+
+
+def _off(cut_um: float, drawn_um: float, off: "Strips") -> OffSize | None:
+    return OffSize(cut_um, drawn_um) if abs(cut_um - drawn_um) > off.tolerance_um else None
+
+
+def _worst(sizes: Iterable[OffSize | None]) -> OffSize | None:
+    return max(filter(None, sizes), key=lambda size: abs(size.cut_um - size.drawn_um), default=None)
 
 
 def _of_path(toolpath: Toolpath, offset_um: float, pieces: "Pieces | None") -> CutSizes:
@@ -202,9 +257,18 @@ def draw_extents(board: Board, sizes: CutSizes, extents: Extents) -> None:
     corner = page.view.to_px(extents.box_um)[extents.sides, (0, 1)]
     for axis, line in enumerate(extents.lines(page)):
         length = length_text(float(extents.box_um[1, axis] - extents.box_um[0, axis]))
-        text = board.say("cut.path_size", size=length) if sizes.of_path else length
+        texts = [board.say("cut.path_size", size=length) if sizes.of_path else length]
+        off = sizes.off[axis]
+        if off is not None:
+            texts = _off_texts(off, board.say, in_one=axis == 0)
         _draw_limits(board.canvas, page.unit, line, float(corner[1 - axis]))
-        board.room.block(_draw_size(board.canvas, page.unit, line, text))
+        board.room.block(_draw_size(board.canvas, page.unit, line, texts, Paint.ERROR if off else Paint.SIZE))
+
+
+def _off_texts(off: OffSize, say: Words, *, in_one: bool) -> list[str]:
+    """A size that is off in one line, or in two beside a line that stands upright, where one would be too wide."""
+    cut, drawn = map(length_text, off)
+    return [say("cut.off_size", size=cut, drawn=drawn)] if in_one else [cut, say("cut.drawn_size", drawn=drawn)]
 
 
 def _draw_limits(canvas: Canvas, unit: float, line: Floats, from_px: float) -> None:
@@ -218,25 +282,31 @@ def _draw_limits(canvas: Canvas, unit: float, line: Floats, from_px: float) -> N
         canvas.polyline(limit, Paint.SIZE, 0.7 * style.SIZE_WIDTH * unit)
 
 
-def _draw_size(canvas: Canvas, unit: float, line: Floats, text: str) -> Box:
-    """Draw a line with arrows at both ends and its text in the middle, beyond it where it is short; the text's box."""
+def _draw_size(canvas: Canvas, unit: float, line: Floats, texts: Sequence[str], paint: Paint) -> Box:
+    """Draw a line with arrows at both ends and texts, one below the other, in its middle; the box of these.
+
+    They stand beyond the line where it is short.
+    """
     size, arrow = style.SIZE * unit, style.SIZE_ARROW * unit
     length = float(np.abs(line[1] - line[0]).max())
     ahead = (line[1] - line[0]) / length
-    wide = canvas.text_width(text, size) + size / 2
-    needed = float(np.abs(ahead) @ (wide, 1.2 * size))
+    wide = max(canvas.text_width(text, size) for text in texts) + size / 2
+    high = 1.2 * size * len(texts)
+    needed = float(np.abs(ahead) @ (wide, high))
     fits = length >= needed + 2.6 * arrow
     half = ahead * needed / 2
     middle = line.mean(axis=0) if fits else line[1] + ahead * 2.0 * arrow + half
     inner = [[line[0], middle - half], [middle + half, line[1]]]
     outer = [line, [line[0], line[0] - 1.9 * arrow * ahead], [line[1], line[1] + 1.9 * arrow * ahead]]
     for stroke in inner if fits else outer:
-        canvas.polyline(np.asarray(stroke), Paint.SIZE, style.SIZE_WIDTH * unit)
+        canvas.polyline(np.asarray(stroke), paint, style.SIZE_WIDTH * unit)
     for end, way in ((line[0], -ahead), (line[1], ahead)):
-        canvas.arrow(end, way if fits else -way, arrow, Paint.SIZE)
-    box = box_around(middle, wide, 1.2 * size)
+        canvas.arrow(end, way if fits else -way, arrow, paint)
+    box = box_around(middle, wide, high)
     canvas.box(box, Paint.PAGE, Paint.PAGE, 0.0)
-    canvas.text((float(middle[0]), float(middle[1])), text, size, Paint.SIZE, align=0.5)
+    for number, text in enumerate(texts):
+        level = float(middle[1]) + 1.2 * size * (number - (len(texts) - 1) / 2)
+        canvas.text((float(middle[0]), level), text, size, paint, align=0.5)
     return box
 
 
@@ -249,16 +319,17 @@ def draw_rounds(board: Board, sizes: CutSizes) -> None:
 
 def _draw_round(board: Board, round_: Round, path: Toolpath) -> None:
     canvas, page = board.canvas, board.page
-    size, unit = style.SIZE * page.unit, page.unit
-    wide = canvas.text_width(round_.text, size) + size / 2
+    size, unit, paint = style.SIZE * page.unit, page.unit, Paint.ERROR if round_.off else Paint.SIZE
+    text = round_.text(board.say)
+    wide = canvas.text_width(text, size) + size / 2
     for arc, outward in _leaders(page, round_, path):
         reach = style.LEADER * unit + float(np.abs(outward) @ (wide, 1.2 * size)) / 2
         box = board.room.take_clear([box_around(arc + outward * reach, wide, 1.2 * size)])
         if box:
             canvas.arrow(arc, -outward, style.SIZE_ARROW * unit, Paint.SIZE)
-            canvas.polyline(np.stack([arc, arc + outward * style.LEADER * unit]), Paint.SIZE, style.SIZE_WIDTH * unit)
+            canvas.polyline(np.stack([arc, arc + outward * style.LEADER * unit]), paint, style.SIZE_WIDTH * unit)
             middle = ((box.left + box.right) / 2, (box.top + box.bottom) / 2)
-            canvas.text(middle, round_.text, size, Paint.SIZE, align=0.5)
+            canvas.text(middle, text, size, paint, align=0.5)
             return
 
 
