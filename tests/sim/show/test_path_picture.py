@@ -17,7 +17,8 @@ from sim.run.recording import NO_PIECES, Recording
 from sim.setup.scenario import load_scenario
 from sim.show.draw.sheet import pixels
 from sim.show.draw.style import DARK, Paint
-from sim.show.pictures.cut.of_path import Programmed, draw_path, programmed
+from sim.show.pictures.cut.of_path import Programmed, cut_of_path, draw_path, programmed
+from sim.show.pictures.cut.picture import draw_cut, layout_of
 from sim.show.pictures.gallery import subject_of
 from sim.show.pictures.path import PATH, PathAlone
 
@@ -153,3 +154,23 @@ def test_offsets_that_are_told_stand_in_the_note_to_a_tenth_of_a_micrometre() ->
     texts = draw_path(recording_sheet(), programmed(program, plain_scenario())).texts
     assert any("offset 0.2529, 0.1843 mm left" in text for text in texts)
     assert {"pass 1, offset 0.253 mm", "pass 2, offset 0.184 mm"} <= set(texts)
+
+
+@pytest.mark.parametrize(("language", "said"), [("en", "gap 0.9 mm"), ("zh", "缺口 0.9 mm")])
+def test_the_gap_of_an_open_contour_is_drawn_with_its_length(language: str, said: str) -> None:
+    """The side back is 9.0 mm long where it is 9.9 mm there: it ends 0.9 mm beside its start."""
+    canvas = recorded(of_text(OPEN), language)
+    (gap,) = [each.at for each in canvas.of("dashed", Paint.ERROR)]
+    page = layout_of(recording_sheet(language=language), cut_of_path(of_text(OPEN), recording_sheet().say)).page
+    assert np.hypot(*(gap[1] - gap[0])) / page.view.px_per_um == pytest.approx(900.0, abs=0.5)
+    assert canvas.texts.count(said) == 1
+    assert recorded(of_text(PART), language).of("dashed", Paint.ERROR) == []
+    assert recorded(of_text(OPEN, may_stay_open=True), language).of("dashed", Paint.ERROR) == []
+
+
+def test_a_gap_of_other_blocks_than_run_is_not_drawn() -> None:
+    cut = cut_of_path(of_text(OPEN), recording_sheet().say)
+    elsewhere = draw_cut(recording_sheet(), cut._replace(toolpath=of_text(PART).program.toolpath))
+    assert elsewhere.of("dashed", Paint.ERROR) == []
+    of_two = parse_program(PART.partition(" B0B9900B9900GYL2")[0] + " DD").toolpath
+    assert draw_cut(recording_sheet(), cut._replace(toolpath=of_two, leads=None)).of("dashed", Paint.ERROR) == []

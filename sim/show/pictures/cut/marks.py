@@ -12,16 +12,18 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from parser.findings.codes import Severity
-from parser.findings.findings import Count, Finding, counted
+from parser.findings.findings import Count, Finding, counted, telling
 from parser.geometry.along import places
 from parser.geometry.curves import Floats, Ints
 from parser.toolpath import Stop, Toolpath
 from parser.units import from_mm
+from sim.check.closures import OpenContour
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.flatten import along
 from sim.show.draw.layout import Anchors, Box, View, box_around, number_stride, place_numbers
 from sim.show.draw.style import Paint
+from sim.show.pictures.cut.sizes import length_text
 from sim.show.pictures.cut.subject import Board
 from sim.show.texts import Words
 
@@ -90,6 +92,7 @@ ARROW_AT: Final = 2 / 3
 """Past the middle, so that the arrows of a way out and back on one line stand apart."""
 
 _MOST_PAUSES: Final = 60
+_SAME_GAP_UM: Final = 1.0
 
 
 def draw_ends(board: Board, toolpath: Toolpath) -> None:
@@ -101,6 +104,32 @@ def draw_ends(board: Board, toolpath: Toolpath) -> None:
         board.room.block(box_around(marker, reach, reach))
     draw_start(canvas, start, page.unit)
     draw_end(canvas, end, page.unit)
+
+
+def draw_gaps(board: Board, toolpath: Toolpath, findings: Sequence[Finding]) -> None:
+    """Draw how far contours that do not close end from their starts, with the lengths of the gaps."""
+    canvas, unit = board.canvas, board.page.unit
+    size = style.NUMBER * unit
+    for gap in _gaps_um(toolpath, findings)[:_MOST_TEXTS]:
+        ends = board.page.view.to_px(gap)
+        canvas.dashed(ends, Paint.ERROR, style.MARK_WIDTH * unit, style.DASH * unit, style.DASH_GAP * unit)
+        text = board.say("cut.gap", size=length_text(float(np.hypot(*(gap[1] - gap[0])))))
+        wide = canvas.text_width(text, size) + 2 * style.NUMBER_INSET * unit
+        box = board.room.take(_round(ends.mean(axis=0), (wide, 1.25 * size), (style.MARK + style.CROSS) * unit))
+        if box:
+            canvas.box(box, Paint.PAGE, Paint.PAGE, 0.0)
+            canvas.text(((box.left + box.right) / 2, (box.top + box.bottom) / 2), text, size, Paint.ERROR, align=0.5)
+
+
+def _gaps_um(toolpath: Toolpath, findings: Sequence[Finding]) -> list[Floats]:
+    """Ends (2, 2) of the gaps of open contours: of these blocks as they run here, which an offset may have changed."""
+    found = []
+    for finding, _ in telling(findings, OpenContour):
+        first, last, gap_um = (finding.values[key] for key in ("first", "last", "gap"))
+        if isinstance(first, int) and isinstance(last, int) and isinstance(gap_um, float) and last <= len(toolpath):
+            ends = np.stack([toolpath.end_um[last - 1], toolpath.start_um[first - 1]])
+            found += [ends] if abs(float(np.hypot(*(ends[1] - ends[0]))) - gap_um) <= _SAME_GAP_UM else []
+    return found
 
 
 def draw_start(canvas: Canvas, center: Floats, unit: float) -> None:

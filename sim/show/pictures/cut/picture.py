@@ -36,6 +36,7 @@ from sim.show.pictures.cut.marks import (
     draw_arrows,
     draw_ends,
     draw_flags,
+    draw_gaps,
     draw_numbers,
     draw_pauses,
     flag_reach,
@@ -256,8 +257,10 @@ def _draw_above(board: Board, cut: Cut, layout: CutLayout) -> Drawn:
 
 
 def _draw_marks(board: Board, cut: Cut, *, texts: bool) -> int:
-    """Draw ends, findings and pauses; how many of the pauses found a place."""
+    """Draw ends, gaps, findings and pauses; how many of the pauses found a place."""
     apart_um = flag_reach(board.page.unit) / board.page.view.px_per_um
     draw_ends(board, cut.toolpath)
+    if texts:
+        draw_gaps(board, cut.toolpath, cut.findings)
     draw_flags(board, flags_of(cut.toolpath, cut.findings, apart_um), codes=texts)
     return draw_pauses(board, cut.toolpath, numbers=texts)
