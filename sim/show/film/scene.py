@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from parser.geometry.curves import Floats, Ints
+from sim.measure.compare.starts import laid_loops
 from sim.run.course import Course, Moment
 from sim.setup.scenario import Scenario
 from sim.show.draw import style
@@ -80,10 +81,11 @@ def draw_behind(canvas: Canvas, page: Page, paint: Paint) -> None:
 
 
 def draw_path(canvas: Canvas, page: Page, course: Course) -> None:
-    """Draw the ideal path, its jumps and its start; near by, the way of the wire and the single steps too."""
+    """Draw the drawing, the ideal path, its jumps and its start; near by, way of the wire and single steps too."""
     toolpath, view, unit, room = course.run.toolpath, page.view, page.unit, page.inside
     points_um, row = flatten(toolpath, CHORD_PX / view.px_per_um)
     with canvas.clipped(room):
+        _draw_drawing(canvas, page, course)
         for run in cut_runs(points_um, row, toolpath.is_jump):
             _draw_run(canvas, run, page, Paint.GREY, style.IDEAL_WIDTH)
         for jump in np.stack([toolpath.start_um, toolpath.end_um], axis=1)[toolpath.is_jump]:
@@ -96,6 +98,14 @@ def draw_path(canvas: Canvas, page: Page, course: Course) -> None:
         if view.px_per_um >= STEPS_FROM:
             _draw_steps(canvas, page, course)
         draw_start(canvas, view.to_px(toolpath.start_um[0]), unit)
+
+
+def _draw_drawing(canvas: Canvas, page: Page, course: Course) -> None:
+    """Draw the drawing that the cut is held against, as it lies on the part."""
+    found = course.run.comparison
+    for loop in () if found is None else laid_loops(found.drawing, found.placement):
+        points_um, _ = flatten(loop, CHORD_PX / page.view.px_per_um)
+        _draw_run(canvas, points_um, page, Paint.DRAWING, style.CONTOUR_WIDTH)
 
 
 def _draw_run(canvas: Canvas, points_um: Floats, page: Page, paint: Paint, width: float) -> None:

@@ -146,8 +146,8 @@ def draw_film_legend(canvas: Canvas, box: Box, unit: float, entries: list[Entry]
         draw_legend(canvas, legend, box.left, top)
 
 
-def film_entries(say: Words, passes: int, *, wider: bool, pieces: bool) -> list[Entry]:
-    """What a frame shows: the kerf, `wider` than it is where it would not show, and maybe `pieces` that come free.
+def film_entries(say: Words, passes: int, *, wider: bool, drawing: bool, pieces: bool) -> list[Entry]:
+    """What a frame shows: the kerf, `wider` than it is where it would not show, and maybe a drawing and free `pieces`.
 
     `passes` is how many there are over one edge at most.
     """
@@ -156,6 +156,7 @@ def film_entries(say: Words, passes: int, *, wider: bool, pieces: bool) -> list[
         Entry(_commanded, say("film.commanded")),
         _kerf(say, passes, wider=wider),
         Entry(stroke(Paint.GREY, style.IDEAL_WIDTH), say("film.ideal")),
+        *([Entry(stroke(Paint.DRAWING, style.CONTOUR_WIDTH), say("film.drawing"))] if drawing else []),
         *([Entry(_piece, say("film.free_piece"))] if pieces else []),
     ]
 
@@ -252,7 +253,8 @@ class Screen:
             kerf_px = self._course.run.scenario.wire.kerf_um * self.whole.px_per_um
             wider = kerf_px < style.KERF_WIDTH_MIN * unit
             passes = max((among for _, among in self._course.passes), default=1)
-            entries = film_entries(self._say, passes, wider=wider, pieces=bool(self._course.pieces))
+            drawing, pieces = self._course.run.comparison is not None, bool(self._course.pieces)
+            entries = film_entries(self._say, passes, wider=wider, drawing=drawing, pieces=pieces)
             draw_film_legend(canvas, box, unit, entries)
         return canvas.pixels()
 

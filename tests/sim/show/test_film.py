@@ -1,6 +1,7 @@
 """Frames of films: what they show against the run itself; and the keys of the replay."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -343,3 +344,16 @@ def test_each_key_does_one_thing_and_has_its_text() -> None:
     assert {key.does for key in OF_PAGE} == {
         name.removeprefix("does_") for name in texts("keys") if name.startswith("does_")
     }
+
+
+def test_the_drawing_that_a_cut_is_held_against_lies_in_the_plot_and_in_the_legend() -> None:
+    """Of an opening of 10 mm by 6 mm about the origin, which is cut too wide: all else is as without it."""
+    recording = scenario_recording("wrong-side")
+    alone = recording._replace(run=replace(recording.run, comparison=None))
+    held, other = (Screen(course_of(each), Look(1280, 720, "light", "en")) for each in (recording, alone))
+    differs = (held.frame(0.0, held.whole, SPEED) != other.frame(0.0, other.whole, SPEED)).any(axis=2)
+    y, x = np.nonzero(inside(differs, held))
+    place = np.stack([x + held.layout.plot.left, y + held.layout.plot.top], axis=1)
+    corners = held.whole.to_px(np.array([[-5000.0, 3000.0], [5000.0, -3000.0]]))
+    assert np.stack([place.min(axis=0), place.max(axis=0) + 1]) == pytest.approx(corners, abs=2.0)  # px
+    assert differs[:, round(held.layout.panel.left) :].any(), "the legend has it"
