@@ -112,7 +112,7 @@ class Following:
 
     @property
     def ticks(self) -> int:
-        """Ticks that both axes have gone through."""
+        """Ticks that both axes have gone through; those of swings that were repeated do not count."""
         return sum(run.state.noted.ticks for run in self._runs)
 
     def take(self, pulses: Pulses) -> None:

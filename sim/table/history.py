@@ -66,7 +66,7 @@ def _widened(bins: Bins, at: int, value: float, length_s: float) -> None:
 
 
 @compiled("(Bins, i8, f8, Values)", Bins, Values)
-def add(bins: Bins, number: int, length_s: float, values: Values) -> None:
+def add_values(bins: Bins, number: int, length_s: float, values: Values) -> None:
     """Take values into a bin."""
     at = number * VALUES
     _widened(bins, at, values.velocity, length_s)
@@ -83,10 +83,10 @@ def binned(bins: Bins, number: int, since_s: float, until_s: float, values: Valu
     while number < last and border_s[number + 1] <= since_s:
         number += 1
     while number < last and border_s[number + 1] < until_s:
-        add(bins, number, border_s[number + 1] - since_s, values)
+        add_values(bins, number, border_s[number + 1] - since_s, values)
         number += 1
         since_s = border_s[number]
-    add(bins, number, min(until_s, border_s[last + 1]) - since_s, values)
+    add_values(bins, number, min(until_s, border_s[last + 1]) - since_s, values)
     return number
 
 
@@ -109,8 +109,6 @@ SWINGS = 64
 """Swings that are stored of an axis: a power of two."""
 SWING_TICKS = 128
 """Most ticks of a swing that is stored: two and a half periods of ringing."""
-SWING_ENDS, SWING_PEAKS = 5, 3 * PEAKS
-"""Figures of a swing: of its end, and of its peaks."""
 
 
 class Swings(NamedTuple):
@@ -120,31 +118,51 @@ class Swings(NamedTuple):
     ----------
     lag_um, step_um
         (n,), lag at which the slide stood, NaN where none is stored, and the step.
-    ends
-        (n * SWING_ENDS,), of each: time that it lasts, lag at which the slide rests then, most that it was away from
-        where it stood, and lag and force of its last tick.
+    lasts_s, rest_lag_um, reach_um
+        (n,), time until the slide rests, its lag then, and the most that it was away from where it stood.
+    last_lag_um, last_force
+        (n,), lag of its last tick, and force over the mass, µm/s².
     way_um
         (n * SWING_TICKS,), of each: way of the slide by the end of each tick.
     bins
         Lowest, highest and integral of each of `Values`, as of n bins; the following error without what was lost.
-    peaks
-        (n * SWING_PEAKS,), of each: highest force, speed and lag, each with the time and the way since it began.
+    peaks, peak_s, peak_way_um
+        (n * PEAKS,), of each: highest force, speed and lag, and the time and the way of each since it began.
     """
 
     lag_um: Floats
     step_um: Floats
-    ends: Floats
+    lasts_s: Floats
+    rest_lag_um: Floats
+    reach_um: Floats
+    last_lag_um: Floats
+    last_force: Floats
     way_um: Floats
     bins: Bins
     peaks: Floats
+    peak_s: Floats
+    peak_way_um: Floats
 
 
 def no_swings() -> Swings:
     """Room for swings, none of them stored."""
     low, high, area = (np.zeros(SWINGS * VALUES) for _ in range(3))
-    ends, ways, peaks = (np.zeros(SWINGS * width) for width in (SWING_ENDS, SWING_TICKS, SWING_PEAKS))
-    none = np.full(SWINGS, np.nan)
-    return Swings(none, np.zeros(SWINGS), ends, ways, Bins(np.zeros(SWINGS + 1), low, high, area), peaks)
+    step, lasts, rest_lag, reach, last_lag, last_force = (np.zeros(SWINGS) for _ in range(6))
+    peaks, peak_s, peak_way = (np.zeros(SWINGS * PEAKS) for _ in range(3))
+    return Swings(
+        lag_um=np.full(SWINGS, np.nan),
+        step_um=step,
+        lasts_s=lasts,
+        rest_lag_um=rest_lag,
+        reach_um=reach,
+        last_lag_um=last_lag,
+        last_force=last_force,
+        way_um=np.zeros(SWINGS * SWING_TICKS),
+        bins=Bins(np.zeros(SWINGS + 1), low, high, area),
+        peaks=peaks,
+        peak_s=peak_s,
+        peak_way_um=peak_way,
+    )
 
 
 class Record(NamedTuple):
@@ -174,8 +192,15 @@ class Record(NamedTuple):
     swings: Swings
 
 
-@compiled("(Record, i8, f8, f8, Slide)", Record, Slide)
-def take_peak(record: Record, number: int, value: float, limit: float, slide: Slide) -> None:
+class PeakPlace(NamedTuple):
+    """When a peak is reached, and where the slide is then."""
+
+    t_s: float
+    at_um: float
+
+
+@compiled("void(Record, i8, f8, f8, PeakPlace)", Record, PeakPlace)
+def take_peak(record: Record, number: int, value: float, limit: float, place: PeakPlace) -> None:
     """Take a value for a peak, if it is the largest share of its limit; the largest of all where there is none.
 
     Of values alike but for rounding it is the first.
@@ -184,15 +209,16 @@ def take_peak(record: Record, number: int, value: float, limit: float, slide: Sl
     of = limit if limit < math.inf else 1.0
     if value > record.peaks[at] * of * _BEYOND_ROUNDING:
         record.peaks[at], record.peaks[at + 1], record.peaks[at + 2] = value / of, value, limit
-        record.peaks[at + 3], record.peaks[at + 4] = slide.t_s, slide.at_um
+        record.peaks[at + 3], record.peaks[at + 4] = place.t_s, place.at_um
 
 
 @compiled("(Record, Values, Limits, Slide)", Record, Values, Limits, Slide)
 def peaked(record: Record, values: Values, limits: Limits, slide: Slide) -> None:
     """Take a tick for the peaks; `slide` is that at its end."""
-    take_peak(record, 0, abs(values.force), limits.force, slide)
-    take_peak(record, 1, abs(values.velocity), limits.speed, slide)
-    take_peak(record, 2, abs(values.lag_um), limits.lag_um, slide)
+    place = PeakPlace(slide.t_s, slide.at_um)
+    take_peak(record, 0, abs(values.force), limits.force, place)
+    take_peak(record, 1, abs(values.velocity), limits.speed, place)
+    take_peak(record, 2, abs(values.lag_um), limits.lag_um, place)
 
 
 @compiled("i8(Record, i8, Slide, f8, f8)", Record, Slide)

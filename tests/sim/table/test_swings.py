@@ -99,6 +99,7 @@ def test_an_axis_does_what_its_ticks_do(seed: int) -> None:
     model, steps = random_case(rng)
     ticks = ticks_of(model, steps.until_s, float(rng.choice([1e-3, 0.013, 0.2])))
     (ours, our_slips), (plain, slips) = (ran(model, steps, ticks, engine) for engine in (followed, tick_by_tick))
+    assert ours.state.noted[:-1] == plain.state.noted[:-1], "but for the ticks"
     assert ours.state.tripped_s == pytest.approx(plain.state.tripped_s, abs=1e-9)
     within_um = LOOSE_WITHIN_UM if slips or model.backlash_um[0] else WITHIN_UM
     assert [slip.amount_um for slip in our_slips] == [slip.amount_um for slip in slips]
@@ -124,3 +125,13 @@ def test_at_the_feeds_of_cutting_nearly_all_swings_are_repeated(name: str) -> No
     ours, plain = (ran(model, steps, ticks, engine)[0].state.noted.ticks for engine in (followed, tick_by_tick))
     assert plain > 10 * len(t_s)
     assert ours < 0.5 * len(t_s)
+
+
+def test_shakes_that_pass_while_an_axis_stands_are_left_behind() -> None:
+    """Else each later swing would look through all of them again."""
+    model = load_machine("dk7740").table
+    steps = Steps(np.append(0.01 + 0.02 * np.arange(50.0), 3.01), np.arange(1.0, 52.0), 5.0)
+    shaken = np.stack([np.arange(1.1, 2.0, 0.02), np.arange(1.11, 2.01, 0.02)], axis=1)
+    ticks = ticks_of(model, steps.until_s, 5.0)._replace(shaken_s=shaken)
+    runs = [ran(model, steps, ticks, engine)[0].state.noted for engine in (followed, tick_by_tick)]
+    assert [noted.shake for noted in runs] == [2 * len(shaken)] * 2
