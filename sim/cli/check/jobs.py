@@ -14,10 +14,10 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple
 import click
 
 from parser.dialect.reader import ChosenDialect, merged
-from parser.files import read_bytes, read_stdin
+from parser.files import read_stdin
 from parser.findings.catalogue import Language, in_language
 from parser.findings.codes import CODES
-from parser.findings.errors import FileUnreadableError, Message
+from parser.findings.errors import FileUnreadableError, Message, system_message
 from parser.text.encoding import printable
 from parser.text.places import cells
 from parser.units import mm
@@ -304,11 +304,11 @@ def _end(found: Jobs, language: Language) -> int:
 def _missing(found: Jobs) -> Iterator[FileUnreadableError]:
     """What is wrong with files that are named and are not there."""
     for job in found.jobs:
-        if isinstance(job.source, Path) and not job.source.exists():
-            try:
-                read_bytes(job.source)
-            except FileUnreadableError as error:
-                yield error
+        try:
+            if isinstance(job.source, Path):
+                job.source.stat()
+        except (OSError, ValueError) as error:  # ValueError: a NUL in the name
+            yield FileUnreadableError("cannot-be-read", file=job.source, why=system_message(error))
 
 
 def _lines(settings: CheckSettings, near: SettingsFile, options: CheckOptions, words: Words) -> Iterator[str]:

@@ -2,20 +2,23 @@
 
 The cut edge: where the part ends once the program is cut, curve by curve with the blocks that make it.
 
-The strips between the edge of a cut and its drawing, where they lie farther apart than is allowed.
+The strips between the edge of a cut and its drawing, where they lie farther apart than is allowed, and the sizes that
+are off.
 """
 
 from dataclasses import dataclass, replace
 from typing import Final, NamedTuple
 
 import numpy as np
+import shapely
 
 from parser.drawing.model import Drawing
 from parser.findings.catalogue import Remark
 from parser.geometry.along import places
-from parser.geometry.curves import Curves, Floats, Ints
+from parser.geometry.curves import Curves, Floats, Ints, extents, joined
 from parser.geometry.distance import feet
 from parser.toolpath import Point
+from sim.cut.sizes import Sizes
 from sim.measure.compare.directed import Directed
 from sim.measure.compare.nearest import indexed, nearest
 from sim.measure.compare.starts import Placement, laid_loops
@@ -262,3 +265,83 @@ def strips_of(comparison: Comparison) -> Strips | None:
     side = comparison.edge_side[rows].astype(np.int64)[strip]
     drawn = tuple(laid_loops(comparison.drawing, comparison.placement))
     return Strips(drawn, place, foot, strip, side, comparison.request.tolerance_um)
+
+
+_MOST_APART: Final = 0.25
+"""Of a size as cut: the one that is drawn lies no farther from it, and differs by no more."""
+
+
+class OffSize(NamedTuple):
+    """A size as cut and as drawn, µm."""
+
+    cut_um: float
+    drawn_um: float
+
+
+class OffSizes(NamedTuple):
+    """Sizes that are off the drawing by more than its tolerance, None where one is not: in the order of `Sizes`.
+
+    Attributes
+    ----------
+    widths
+        Of each box, along X and along Y.
+    radii
+        Of each arc.
+    """
+
+    widths: tuple[tuple[OffSize | None, ...], ...]
+    radii: tuple[OffSize | None, ...]
+
+
+def off_sizes(strips: Strips, sizes: Sizes) -> OffSizes:
+    """The sizes that are off, each held against the loop or the arc that is drawn nearest to it."""
+    boxes = np.array([[*box.center_um, *box.cut_um] for box in sizes.boxes]).reshape(-1, 4)
+    arcs = np.array([[*arc.center_um, arc.cut_um] for arc in sizes.radii]).reshape(-1, 3)
+    widths = _off(boxes, _drawn_boxes(strips.drawn), strips.tolerance_um)
+    radii = _off(arcs, _drawn_arcs(strips.drawn), strips.tolerance_um)
+    return OffSizes(widths, tuple(radius for (radius,) in radii))
+
+
+def _drawn_boxes(loops: tuple[Curves, ...]) -> Floats:
+    """Centres and widths (k, 4) µm of the boxes round loops."""
+    if not loops:
+        return np.empty((0, 4))
+    first = np.cumsum([0, *map(len, loops[:-1])])
+    low, high = extents(joined(loops))
+    low, high = np.minimum.reduceat(low, first), np.maximum.reduceat(high, first)
+    return np.hstack([(low + high) / 2.0, high - low])
+
+
+def _drawn_arcs(loops: tuple[Curves, ...]) -> Floats:
+    """Centres and radii (k, 3) µm of the arcs of loops."""
+    if not loops:
+        return np.empty((0, 3))
+    curves = joined(loops)
+    return np.column_stack([curves.center_um, curves.radius_um])[curves.is_arc]
+
+
+def _nearest_drawn(cut: Floats, drawn: Floats) -> Floats:
+    """Sizes (n, d) drawn beside those that are cut, NaN where there are none; rows are a centre (2,) and sizes (d,).
+
+    All are µm.
+    """
+    nearest_um = np.full_like(cut[:, 2:], np.nan)
+    within = _MOST_APART * cut[:, 2:].min(axis=1, initial=np.inf)
+    tree = shapely.STRtree(list(shapely.points(drawn[:, :2])))  # type: ignore[arg-type]
+    of, at = tree.query(shapely.points(cut[:, :2]), predicate="dwithin", distance=within)
+    apart = np.hypot(*(cut[of, :2] - drawn[at, :2]).T) + np.abs(cut[of, 2:] - drawn[at, 2:]).max(axis=1, initial=0.0)
+    farthest_first = np.argsort(-apart, kind="stable")
+    farthest_first = farthest_first[(apart <= within[of])[farthest_first]]
+    nearest_um[of[farthest_first]] = drawn[at[farthest_first], 2:]  # the nearest comes last, and stays
+    return nearest_um
+
+
+def _off(cut: Floats, drawn: Floats, tolerance_um: float) -> tuple[tuple[OffSize | None, ...], ...]:
+    """Of each row of centre and sizes that is cut, its sizes that are off those drawn beside it."""
+    nearest_um = _nearest_drawn(cut, drawn)
+    is_off = np.abs(cut[:, 2:] - nearest_um) > tolerance_um
+    rows = zip(cut[:, 2:].tolist(), nearest_um.tolist(), is_off.tolist(), strict=True)
+    return tuple(
+        tuple(OffSize(each, other) if differs else None for each, other, differs in zip(*row, strict=True))
+        for row in rows
+    )

@@ -80,12 +80,16 @@ def draw_behind(canvas: Canvas, page: Page, paint: Paint) -> None:
         draw_axes(canvas, page)
 
 
-def draw_path(canvas: Canvas, page: Page, course: Course) -> None:
-    """Draw the drawing, the ideal path, its jumps and its start; near by, way of the wire and single steps too."""
+def draw_path(canvas: Canvas, page: Page, course: Course, drawing: Iterable[Floats]) -> None:
+    """Draw the lines of the `drawing`, the ideal path, its jumps and its start.
+
+    Near by, the way of the wire and the single steps show too.
+    """
     toolpath, view, unit, room = course.run.toolpath, page.view, page.unit, page.inside
     points_um, row = flatten(toolpath, CHORD_PX / view.px_per_um)
     with canvas.clipped(room):
-        _draw_drawing(canvas, page, course)
+        for loop in drawing:
+            _draw_run(canvas, loop, page, Paint.DRAWING, style.CONTOUR_WIDTH)
         for run in cut_runs(points_um, row, toolpath.is_jump):
             _draw_run(canvas, run, page, Paint.GREY, style.IDEAL_WIDTH)
         for jump in np.stack([toolpath.start_um, toolpath.end_um], axis=1)[toolpath.is_jump]:
@@ -100,12 +104,11 @@ def draw_path(canvas: Canvas, page: Page, course: Course) -> None:
         draw_start(canvas, view.to_px(toolpath.start_um[0]), unit)
 
 
-def _draw_drawing(canvas: Canvas, page: Page, course: Course) -> None:
-    """Draw the drawing that the cut is held against, as it lies on the part."""
+def drawing_um(course: Course, view: View) -> list[Floats]:
+    """Lines (k, 2) of the drawing that the cut is held against, as it lies on the part: one to each of its loops."""
     found = course.run.comparison
-    for loop in () if found is None else laid_loops(found.drawing, found.placement):
-        points_um, _ = flatten(loop, CHORD_PX / page.view.px_per_um)
-        _draw_run(canvas, points_um, page, Paint.DRAWING, style.CONTOUR_WIDTH)
+    loops = [] if found is None else laid_loops(found.drawing, found.placement)
+    return [flatten(loop, CHORD_PX / view.px_per_um)[0] for loop in loops]
 
 
 def _draw_run(canvas: Canvas, points_um: Floats, page: Page, paint: Paint, width: float) -> None:
@@ -314,6 +317,7 @@ class Scene:
         self._page = Page(wide, round(layout.plot.bottom + AXIS * unit), unit, layout.plot, view)
         self._course, self._theme = course, theme
         scenario = course.run.scenario
+        self._drawing = drawing_um(course, view)
         self._radius = max(scenario.wire.kerf_um * view.px_per_um, style.KERF_WIDTH_MIN * unit) / 2.0
         discs = discs_of(course.trace, course.run.toolpath.is_jump, view, layout.plot, self._radius)
         self._map = CutMap(discs, layout.plot)
@@ -353,14 +357,14 @@ class Scene:
         """The plot as if all of it were kerf of one tone, with the path."""
         canvas = Plate(self._page.width_px, self._page.height_px, self._theme)
         draw_behind(canvas, self._page, paint)
-        draw_path(canvas, self._page, self._course)
+        draw_path(canvas, self._page, self._course, self._drawing)
         return canvas.pixels()[self._plot]
 
     def _begin(self, pieces: Sequence[PieceDrawn]) -> None:
         """Begin anew with a plot that is not cut."""
         canvas = Plate(self._page.width_px, self._page.height_px, self._theme)
         draw_ground(canvas, self._page, self._course.run.scenario, pieces)
-        draw_path(canvas, self._page, self._course)
+        draw_path(canvas, self._page, self._course, self._drawing)
         self._pieces, self._before = pieces, canvas.pixels()
         self._image = self._before.copy()
         self._front, self._tip = 0, NOTHING

@@ -9,14 +9,14 @@ from recorder import Recorder, recording_sheet
 from runs import scenario_recording, scenario_run
 
 from parser.geometry.curves import Curves
-from sim.measure.compare.result import Strips, strips_of
+from sim.cut.sizes import Sizes
+from sim.measure.compare.result import OffSizes, Strips, off_sizes, strips_of
 from sim.run.dryrun import DryRun
 from sim.run.recording import pieces_of_run
 from sim.show.draw.style import Paint
 from sim.show.pictures.cut.lines import times_wider
 from sim.show.pictures.cut.of_run import cut_of_run, draw_cut_of_run
 from sim.show.pictures.cut.picture import Shapes, layout_of
-from sim.show.pictures.cut.sizes import sizes_of_cut
 from sim.show.replay.document import replay_document
 
 
@@ -77,23 +77,32 @@ def test_sizes_that_are_off_stand_beside_those_that_are_drawn(wrong: DryRun) -> 
 
 
 def test_sizes_within_the_tolerance_are_those_that_are_meant(wrong: DryRun) -> None:
-    off = off_of(wrong)
-    cut = cut_of_run(wrong, None, recording_sheet().say, Shapes())
-    loose = sizes_of_cut(cut._replace(off=off._replace(tolerance_um=400.0)))
-    assert loose.off == (None, None)
-    assert [each.off for each in loose.rounds] == [None]
-    strict = sizes_of_cut(cut._replace(off=off._replace(tolerance_um=397.6)))
-    assert [each is None for each in strict.off] == [True, False], "397.5 and 398.0 µm off"
+    assert wrong.remains is not None
+    off, sizes = off_of(wrong), wrong.remains.sizes
+    loose = off_sizes(off._replace(tolerance_um=400.0), sizes)
+    assert loose == OffSizes(((None, None),), (None,) * 4)
+    strict = off_sizes(off._replace(tolerance_um=397.6), sizes)
+    assert [each is None for each in strict.widths[0]] == [True, False], "397.5 and 398.0 µm off"
     assert not [text for text in drawn(scenario_run("die")).texts if "drawn" in text]
 
 
 def test_a_drawing_far_from_a_size_says_nothing_of_it(wrong: DryRun) -> None:
-    off = off_of(wrong)
-    cut = cut_of_run(wrong, None, recording_sheet().say, Shapes())
+    assert wrong.remains is not None
+    off, sizes = off_of(wrong), wrong.remains.sizes
     for elsewhere in (tuple(moved(loop, 5000.0) for loop in off.drawn), ()):
-        sizes = sizes_of_cut(cut._replace(off=off._replace(drawn=elsewhere)))
-        assert sizes.off == (None, None)
-        assert [each.off for each in sizes.rounds] == [None]
+        assert off_sizes(off._replace(drawn=elsewhere), sizes) == OffSizes(((None, None),), (None,) * 4)
+    assert off_sizes(off, Sizes((), (), ())) == OffSizes((), ())
+
+
+def test_of_many_that_are_drawn_the_nearest_counts(wrong: DryRun) -> None:
+    """A second opening lies 0.3 mm beside the one that is meant, which is 397.5 and 398.0 µm narrower than the cut."""
+    assert wrong.remains is not None
+    off, sizes = off_of(wrong), wrong.remains.sizes
+    beside = tuple(moved(loop, 300.0) for loop in off.drawn)
+    for loops in ((*off.drawn, *beside), (*beside, *off.drawn)):
+        (widths,) = off_sizes(off._replace(drawn=loops), sizes).widths
+        assert widths == off_sizes(off, sizes).widths[0]
+        assert widths[0] == pytest.approx((10_397.468534, 10_000.0), abs=0.5)  # µm
 
 
 def moved(curves: Curves, by_um: float) -> Curves:

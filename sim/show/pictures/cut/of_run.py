@@ -20,7 +20,7 @@ def draw_cut_of_run(
 
 def cut_of_run(run: DryRun, pieces: Pieces | None, say: Words, shapes: Shapes) -> Cut:
     """The cut of a run, with the pieces that it frees where they are known; `shapes` are those of all its pictures."""
-    scenario = run.scenario
+    scenario, sizes = run.scenario, None if run.remains is None else run.remains.sizes
     return Cut(
         toolpath=run.toolpath,
         kerf_um=scenario.wire.kerf_um,
@@ -31,8 +31,9 @@ def cut_of_run(run: DryRun, pieces: Pieces | None, say: Words, shapes: Shapes) -
         contour=None if run.offset is None else run.offset.passed.drawn,
         bodies=bodies_of(scenario),
         pieces=pieces,
-        sizes=None if run.remains is None else run.remains.sizes,
+        sizes=sizes,
         findings=run.findings,
         travel_um=travel_um(run.toolpath, scenario),
         off=shapes.strips(run.comparison),
+        off_sizes=shapes.off_sizes(run.comparison, sizes),
     )

@@ -47,7 +47,8 @@ from sim.show.pictures.cut.subject import Board, Cut, clamps_on, draw_bodies, wo
 from sim.show.texts import Words
 
 if TYPE_CHECKING:
-    from sim.measure.compare.result import Comparison, Strips
+    from sim.cut.sizes import Sizes
+    from sim.measure.compare.result import Comparison, OffSizes, Strips
 
 
 class Shapes:
@@ -57,6 +58,7 @@ class Shapes:
         self._lines: dict[View, Lines] = {}
         self._areas: dict[View, Areas] = {}
         self._strips: tuple[Strips | None] | None = None  # once it was worked out
+        self._off_sizes: OffSizes | None = None
 
     def lines(self, cut: Cut, view: View) -> Lines:
         """The lines of the cut in a view."""
@@ -73,6 +75,17 @@ class Shapes:
         if self._strips is None:
             self._strips = (strips_of(comparison),)
         return self._strips[0]
+
+    def off_sizes(self, comparison: "Comparison | None", sizes: "Sizes | None") -> "OffSizes | None":
+        """The sizes that are off the drawing; None where the edge is nowhere off it, or there is none."""
+        strips = self.strips(comparison)
+        if strips is None or sizes is None:
+            return None
+        from sim.measure.compare.result import off_sizes  # noqa: PLC0415 - of a path no comparison is known
+
+        if self._off_sizes is None:
+            self._off_sizes = off_sizes(strips, sizes)
+        return self._off_sizes
 
     def areas(self, cut: Cut, view: View) -> Areas:
         """The areas of the pieces of the cut in a view; none where no pieces are known."""

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 
 import numpy as np
 
-from parser.geometry.curves import Floats, Ints, joined
+from parser.geometry.curves import Floats, Ints
 from parser.shape.contours import contour_rows
 from parser.shape.loops import Loops, find_loops
 from parser.toolpath import Toolpath
@@ -26,22 +26,14 @@ from sim.show.texts import Words
 
 if TYPE_CHECKING:  # of a path none are known, and their rooms take long to load
     from sim.cut.pieces.pieces import Pieces
-    from sim.cut.sizes import RadiusSize, Sizes
-    from sim.measure.compare.result import Strips
+    from sim.cut.sizes import Sizes
+    from sim.measure.compare.result import OffSize, OffSizes
 
 
 LEAST_SWEEP_RAD: Final = np.radians(30.0)
 _WHOLE_RAD: Final = np.radians(359.0)
 _SAME_UM: Final = 10.0  # centres this near are one
 _ORIENTATION_UM: Final = 10.0  # chords that tell which way a loop turns
-_MEANT: Final = 0.25  # of a size, by which it may differ from the one that is drawn
-
-
-class OffSize(NamedTuple):
-    """A size that is off the drawing: as cut, and as drawn, µm."""
-
-    cut_um: float
-    drawn_um: float
 
 
 class Round(NamedTuple):
@@ -54,7 +46,7 @@ class Round(NamedTuple):
     rows: Ints
     number: int
     whole: bool
-    off: OffSize | None = None
+    off: "OffSize | None" = None
 
     def text(self, say: Words) -> str:
         """A size such as ``2× Ø 10`` or ``R 2.5``; one that is off such as ``R 2.413, drawn 2.5``."""
@@ -79,7 +71,7 @@ class CutSizes(NamedTuple):
     rounds: tuple[Round, ...]
     path: Toolpath
     of_path: bool
-    off: tuple[OffSize | None, OffSize | None] = (None, None)
+    off: "tuple[OffSize | None, ...]" = (None, None)
 
 
 class _Arcs(NamedTuple):
@@ -97,52 +89,33 @@ def length_text(length_um: float) -> str:
 def sizes_of_cut(cut: Cut) -> CutSizes:
     """Sizes of what a cut keeps: those that were worked out, else those of the path, the offset taken off or added."""
     if cut.sizes is not None and cut.sizes.boxes:
-        return _measured(cut.toolpath, cut.sizes, cut.off)
+        return _measured(cut.toolpath, cut.sizes, cut.off_sizes)
     if cut.contour is not None:
         return _of_path(cut.contour, 0.0, cut.pieces)
     return _of_path(cut.toolpath, cut.kerf_um / 2, cut.pieces)
 
 
-def _measured(toolpath: Toolpath, sizes: "Sizes", off: "Strips | None") -> CutSizes:
-    box = max(sizes.boxes, key=lambda each_box: each_box.nominal_um.x * each_box.nominal_um.y)
+def _measured(toolpath: Toolpath, sizes: "Sizes", off: "OffSizes | None") -> CutSizes:
+    areas = [box.nominal_um.x * box.nominal_um.y for box in sizes.boxes]
+    largest = int(np.argmax(areas))
+    box = sizes.boxes[largest]
     half, centre = np.array(box.nominal_um) / 2, np.array(box.center_um)
     row = np.array([each.block - 1 for each in sizes.radii], dtype=np.int64)
     arcs = _Arcs(row, np.array([each.nominal_um for each in sizes.radii], dtype=np.float64))
     measured = CutSizes(np.stack([centre - half, centre + half]), _rounds(toolpath, arcs), toolpath, of_path=False)
-    if off is None or not off.drawn:
+    if off is None:
         return measured
-    radii = {each.block - 1: _radius_off(each, off) for each in sizes.radii}
-    rounds = [each._replace(off=_worst(radii[at] for at in each.rows.tolist())) for each in measured.rounds]
-    cut_um = np.array(box.cut_um)
-    return measured._replace(rounds=tuple(rounds), off=_widths_off(cut_um, centre + np.outer([-0.5, 0.5], cut_um), off))
+    of_row: dict[int, list[OffSize]] = {}
+    for at, radius in zip(row.tolist(), off.radii, strict=True):
+        of_row.setdefault(at, []).extend([radius] if radius else [])
+    rounds = [
+        each._replace(off=_worst(size for at in each.rows.tolist() for size in of_row[at])) for each in measured.rounds
+    ]
+    return measured._replace(rounds=tuple(rounds), off=off.widths[largest])
 
 
-def _widths_off(cut_um: Floats, box_um: Floats, off: "Strips") -> tuple[OffSize | None, OffSize | None]:
-    """Widths (2,) of a cut box (2, 2) that are off those of the loop that is drawn about there."""
-    boxes = np.array([bounds_um(loop) for loop in off.drawn])
-    apart = np.abs(boxes - box_um).max(axis=(1, 2))
-    nearest = int(np.argmin(apart))
-    if apart[nearest] > _MEANT * cut_um.min():
-        return None, None
-    x, y = zip(cut_um.tolist(), (boxes[nearest, 1] - boxes[nearest, 0]).tolist(), strict=True)
-    return _off(*x, off), _off(*y, off)
-
-
-def _radius_off(size: "RadiusSize", off: "Strips") -> OffSize | None:
-    """A radius that is off that of the arc that is drawn about there."""
-    arcs = joined([loop.picked(loop.is_arc) for loop in off.drawn])
-    apart = np.hypot(*(arcs.center_um - np.array(size.center_um)).T) + np.abs(arcs.radius_um - size.cut_um)
-    if not len(apart) or apart.min() > _MEANT * size.cut_um:
-        return None
-    return _off(size.cut_um, float(arcs.radius_um[np.argmin(apart)]), off)
-
-
-def _off(cut_um: float, drawn_um: float, off: "Strips") -> OffSize | None:
-    return OffSize(cut_um, drawn_um) if abs(cut_um - drawn_um) > off.tolerance_um else None
-
-
-def _worst(sizes: Iterable[OffSize | None]) -> OffSize | None:
-    return max(filter(None, sizes), key=lambda size: abs(size.cut_um - size.drawn_um), default=None)
+def _worst(sizes: "Iterable[OffSize]") -> "OffSize | None":
+    return max(sizes, key=lambda size: abs(size.cut_um - size.drawn_um), default=None)
 
 
 def _of_path(toolpath: Toolpath, offset_um: float, pieces: "Pieces | None") -> CutSizes:
@@ -265,7 +238,7 @@ def draw_extents(board: Board, sizes: CutSizes, extents: Extents) -> None:
         board.room.block(_draw_size(board.canvas, page.unit, line, texts, Paint.ERROR if off else Paint.SIZE))
 
 
-def _off_texts(off: OffSize, say: Words, *, in_one: bool) -> list[str]:
+def _off_texts(off: "OffSize", say: Words, *, in_one: bool) -> list[str]:
     """A size that is off in one line, or in two beside a line that stands upright, where one would be too wide."""
     cut, drawn = map(length_text, off)
     return [say("cut.off_size", size=cut, drawn=drawn)] if in_one else [cut, say("cut.drawn_size", drawn=drawn)]

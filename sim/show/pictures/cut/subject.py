@@ -22,7 +22,7 @@ from sim.show.texts import Words
 if TYPE_CHECKING:  # what only a run has: the picture of a path does without the engine
     from sim.cut.pieces.pieces import Pieces
     from sim.cut.sizes import Sizes
-    from sim.measure.compare.result import Strips
+    from sim.measure.compare.result import OffSizes, Strips
     from sim.table.trace import Trace
 
 
@@ -159,6 +159,8 @@ class Cut(NamedTuple):
     off
         Strips between the edge and the drawing that it was held against; None where it is nowhere off, or there is
         none.
+    off_sizes
+        The sizes that are off it; None as above.
     """
 
     toolpath: Toolpath
@@ -175,6 +177,7 @@ class Cut(NamedTuple):
     findings: Sequence[Finding] = ()
     travel_um: Floats | None = None
     off: "Strips | None" = None
+    off_sizes: "OffSizes | None" = None
 
 
 class Board(NamedTuple):
