@@ -30,13 +30,13 @@ from sim.base.files import scratch, staged
 from sim.base.units import rounded
 from sim.base.workers.rounds import DIED, Lost, Maker, Pool, made_by, refuse_other_makers, results
 from sim.jobs.index import Entry, Row, build_index, index_text
-from sim.jobs.index_model import IndexDocument
 from sim.jobs.run_into import FILES, NAMES, run_into
 from sim.jobs.shop import ShopProgram, source_of
 from sim.run.dryrun import DryRun
 from sim.run.findings import to_check, verdict
 from sim.setup.scenario import Scenario
 from sim.show.index_page import BesideTheIndex, index_page
+from sim.show.index_page.model import IndexDocument
 from sim.show.index_page.page import thumbnail
 from sim.show.texts.phrases import same
 

@@ -9,7 +9,7 @@ from parser import __version__
 from parser.findings.catalogue import Bilingual
 from parser.findings.codes import Severity
 from parser.findings.findings import Count
-from sim.jobs.index_model import CountsEntry, IndexDocument, IndexRowEntry
+from sim.show.index_page.model import CountsEntry, IndexDocument, IndexRowEntry
 
 _NONE: Final = Bilingual("", "")
 VERDICTS: Final = ("pass", "fail", "refused", "fault")

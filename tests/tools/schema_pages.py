@@ -7,7 +7,6 @@ from pathlib import Path
 from controller.decode.model import DECODE
 from parser.documents import schema_text
 from sim.check.settings.read import settings_schema
-from sim.jobs.index_model import INDEX
 from sim.make.cam.document_model import PROGRAM
 from sim.run.ballbar.model import BALLBAR
 from sim.run.report.drawing import COMPARE
@@ -15,6 +14,7 @@ from sim.run.report.model import REPORT
 from sim.setup.key_tables import machine_schema, scenario_schema
 from sim.show.findings.explained import EXPLAIN
 from sim.show.findings.json import CHECK
+from sim.show.index_page.model import INDEX
 
 DOCS = Path(__file__).parents[2] / "docs"
 DOCUMENTS = (BALLBAR, CHECK, COMPARE, DECODE, EXPLAIN, INDEX, PROGRAM, REPORT)

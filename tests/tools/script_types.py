@@ -1,51 +1,86 @@
 """Writes the types of what pages are handed into their scripts, from models: `make pages`."""
 
+import re
 import textwrap
 import types
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints, is_typeddict
+from typing import (
+    Annotated,
+    Any,
+    Literal,
+    NotRequired,
+    Required,
+    Union,
+    get_args,
+    get_origin,
+    get_type_hints,
+    is_typeddict,
+)
 
-from parser.documents import Limits, Point, SaidEntry
+from parser.documents import Limits, Point
+from sim.serve.page.model import ANSWERS
+from sim.show.drill_page.page import DrillsEntry
+from sim.show.html.packed import PackedEntry
+from sim.show.index_page.model import IndexEntry
 from sim.show.replay.model import ReplayDocument
+from sim.show.report_page.tables import TableDataEntry
 
 ROOT = Path(__file__).parents[2]
-DOCUMENTS = {ROOT / "sim" / "show" / "replay" / "assets" / "document.js": ReplayDocument}
+SHOW = ROOT / "sim" / "show"
+DOCUMENTS: dict[Path, Sequence[type]] = {
+    SHOW / "html" / "assets" / "packed.js": [PackedEntry],
+    SHOW / "replay" / "assets" / "document.js": [ReplayDocument],
+    SHOW / "report_page" / "assets" / "data.js": [TableDataEntry],
+    SHOW / "index_page" / "assets" / "data.js": [IndexEntry],
+    SHOW / "drill_page" / "assets" / "data.js": [DrillsEntry],
+    SHOW / "open_page" / "assets" / "data.js": ANSWERS,
+}
 BEGIN, END = "/** Written by `make pages` from the model in Python. */\n", "/** Up to here. */\n"
 NAMED = {str: "string", int: "number", float: "number", bool: "boolean", type(None): "null", Point: "Place"}
-ELSEWHERE = (SaidEntry,)
-"""Models whose types the script imports."""
 
 
 def pages() -> Iterator[tuple[Path, str]]:
-    """Each script with types of a model, and what it is to hold."""
-    for path, model in DOCUMENTS.items():
+    """Each script with types of models, and what it is to hold."""
+    for path, models in DOCUMENTS.items():
         text = path.read_text("utf-8")
         before, _, rest = text.partition(BEGIN)
-        yield path, before + BEGIN + "\n" + "\n".join(typedefs(model)) + "\n" + END + rest.partition(END)[2]
+        typedefs = [typedef(model) for model in models_of(models) if name_of(model) not in imported(before)]
+        yield path, before + BEGIN + "\n" + "\n".join(typedefs) + "\n" + END + rest.partition(END)[2]
 
 
-def typedefs(model: type) -> list[str]:
-    """Types of a model and of its parts, the whole first."""
-    return [typedef(each) for each in dict.fromkeys(models_of(model)) if each not in ELSEWHERE]
+def imported(text: str) -> set[str]:
+    """Names of types that a script takes from others."""
+    return {name.strip() for names in re.findall(r"@import \{(.*?)\}", text) for name in names.split(",")}
 
 
-def models_of(of: Any) -> Iterator[type]:
+def models_of(models: Sequence[type]) -> list[type]:
+    """Models and those that they name, each once, before its parts."""
+    return list(dict.fromkeys(part for model in models for part in parts_of(model)))
+
+
+def parts_of(of: Any) -> Iterator[type]:
     """Models that a type is or names, each before its parts."""
     if is_typeddict(of):
         yield of
     for part in get_type_hints(of).values() if is_typeddict(of) else get_args(of):
-        yield from models_of(part)
+        yield from parts_of(part)
 
 
-def typedef(model: type) -> str:
+def typedef(model: Any) -> str:
     words = [f" * {line}" for line in textwrap.wrap(" ".join((model.__doc__ or "").split()), 116)]
-    fields = get_type_hints(model, include_extras=True).items()
+    fields = {name: always(of) for name, of in get_type_hints(model, include_extras=True).items()}
+    names = {name: f"[{name}]" if name in model.__optional_keys__ else name for name in fields}
     return "\n".join(
         ["/**", *words, f" * @typedef {{object}} {name_of(model)}"]
-        + [f" * @property {{{script_type(of)}}} {name}{note_of(of)}" for name, of in fields]
+        + [f" * @property {{{script_type(of)}}} {names[name]}{note_of(of)}" for name, of in fields.items()]
         + [" */\n"]
     )
+
+
+def always(of: Any) -> Any:
+    """The type of a field, whether it may be missing or not."""
+    return get_args(of)[0] if get_origin(of) in (NotRequired, Required) else of
 
 
 def name_of(model: type) -> str:
@@ -54,7 +89,7 @@ def name_of(model: type) -> str:
 
 def note_of(of: Any) -> str:
     notes = [note for note in getattr(of, "__metadata__", ()) if isinstance(note, str)]
-    return f" {notes[0]}" if notes else ""
+    return f" {notes[-1]}" if notes else ""
 
 
 def script_type(of: Any) -> str:
@@ -72,9 +107,13 @@ def composed(of: Any) -> str:
         return " | ".join(f'"{arg}"' if isinstance(arg, str) else str(arg) for arg in args)
     if origin in (Union, types.UnionType):
         return " | ".join(map(script_type, args))
-    if origin is list:
+    if origin in (list, Sequence):
         item = script_type(args[0])
         return f"({item})[]" if "|" in item else f"{item}[]"
+    if origin is tuple:
+        return f"[{', '.join(map(script_type, args))}]"
+    if origin is dict:
+        return f"Record<string, {script_type(args[1])}>"
     raise TypeError(of)
 
 

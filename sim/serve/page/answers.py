@@ -2,13 +2,14 @@
 
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Any, Final, NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
 
 from controller.motion.limits import Feeds
 from controller.stepping.steps import interpolate
-from parser.findings.catalogue import LANGUAGES, Bilingual, page, texts
+from parser.documents import SaidEntry
+from parser.findings.catalogue import LANGUAGES, Bilingual, CataloguePage, page, texts
 from parser.findings.findings import Finding
 from parser.program import Program, usual_name
 from parser.shape.contours import find_contours
@@ -19,6 +20,15 @@ from sim.base.units import numbers, rounded
 from sim.check.file_check import as_typed
 from sim.check.result import CheckResult
 from sim.serve.page.form import USUAL, Chosen
+from sim.serve.page.model import (
+    AnswerEntry,
+    ExplainedEntry,
+    FigureEntry,
+    FileTextEntry,
+    FindingEntry,
+    PathEntry,
+    SizeEntry,
+)
 from sim.show.replay.tape import exact_columns
 from sim.show.texts import bilingual
 from sim.show.texts.phrases import lasting
@@ -46,6 +56,22 @@ def read_file(data: bytes) -> ReadFile:
     letter = {end: letter for letter, end in _ENDS.items()}
     mixed = "".join(letter[end] for end in ends) if len(set(ends)) > 1 else ""
     return ReadFile(LINE_END.sub("\n", text), encoding, mixed or (ends[0] if ends else "\n"))
+
+
+def file_text(name: str, read: ReadFile, number: str = "") -> FileTextEntry:
+    """A file as the page has it; `number` is that of its program, empty where it came to the page."""
+    return {
+        "name": printable(name),
+        "text": read.text,
+        "encoding": read.encoding,
+        "newline": read.newline,
+        "number": number,
+    }
+
+
+def printable_entry(message: Bilingual) -> SaidEntry:
+    """A message, which may cite a file, as the page shows it."""
+    return {"en": printable(message.en), "zh": printable(message.zh)}
 
 
 def file_of(read: ReadFile, text: str) -> bytes:
@@ -76,7 +102,7 @@ def _line_ends(read: ReadFile, text: str) -> list[str]:
     return [*was[:head], *between, *was[len(was) - tail :]]
 
 
-def answer(name: str, file: Path | None, text: str, for_run: Chosen = USUAL) -> dict[str, Any]:
+def answer(name: str, file: Path | None, text: str, for_run: Chosen = USUAL) -> AnswerEntry:
     """What is found in a text, and its path; an empty name is given the usual one.
 
     `file` is where the text stands, None where nobody knows.
@@ -94,24 +120,24 @@ def answer(name: str, file: Path | None, text: str, for_run: Chosen = USUAL) -> 
         "path": _path(program, offsets, for_run.feeds) if program and len(program.toolpath) else None,
         "figures": _figures(program) if program and result.coverage.stepped else [],
         "size": size_of(result, for_run),
-        "machine": for_run.title._asdict(),
+        "machine": for_run.title.entry(),
     }
 
 
-def found_in(text: str, findings: Iterable[Finding]) -> list[dict[str, Any]]:
+def found_in(text: str, findings: Iterable[Finding]) -> list[FindingEntry]:
     """Findings of a text as the page lists them."""
     offsets = Offsets(text)
     return [_finding(finding, offsets) for finding in findings]
 
 
-def pages_of(findings: Iterable[Finding]) -> dict[str, Any]:
+def pages_of(findings: Iterable[Finding]) -> dict[str, ExplainedEntry]:
     """The pages of the codes of some findings: ``why`` and ``mend``, Markdown."""
     codes = sorted({finding.code for finding in findings})
-    return {code: {part: _part(code, part) for part in ("why", "mend")} for code in codes}
+    return {code: _explained(*(page(code, language) for language in LANGUAGES)) for code in codes}
 
 
-def _part(code: str, part: str) -> dict[str, str]:
-    return {language: getattr(page(code, language), part) for language in LANGUAGES}
+def _explained(en: CataloguePage, zh: CataloguePage) -> ExplainedEntry:
+    return {"why": {"en": en.why, "zh": zh.why}, "mend": {"en": en.mend, "zh": zh.mend}}
 
 
 class Offsets:
@@ -126,24 +152,24 @@ class Offsets:
         return character if self._before is None else character + int(self._before[character])
 
 
-def _finding(finding: Finding, offsets: Offsets) -> dict[str, Any]:
-    said = {language: texts(finding, language) for language in LANGUAGES}
+def _finding(finding: Finding, offsets: Offsets) -> FindingEntry:
+    en, zh = (texts(finding, language) for language in LANGUAGES)
     return {
         "code": finding.code,
         "severity": str(finding.severity),
-        "title": {language: text.title for language, text in said.items()},
-        "message": {language: text.message for language, text in said.items()},
-        "hint": {language: text.hint for language, text in said.items()},
+        "title": {"en": en.title, "zh": zh.title},
+        "message": {"en": en.message, "zh": zh.message},
+        "hint": {"en": en.hint, "zh": zh.hint},
         "line": finding.line,
         "block": finding.block,
         "block_name": finding.block_name,
         "first": offsets.of(finding.span[0]),
         "past": offsets.of(finding.span[1]),
-        "edits": [[offsets.of(edit.first), offsets.of(edit.past), edit.text] for edit in finding.edits],
+        "edits": [(offsets.of(edit.first), offsets.of(edit.past), edit.text) for edit in finding.edits],
     }
 
 
-def _path(program: Program, offsets: Offsets, feeds: Feeds) -> dict[str, list[Any]]:
+def _path(program: Program, offsets: Offsets, feeds: Feeds) -> PathEntry:
     """Columns of n blocks, and where each stands in the text; ``border_s`` has n + 1.
 
     That is when each block begins at the feeds alone, without accelerations and stops: a run tells it exactly.
@@ -162,7 +188,7 @@ def _path(program: Program, offsets: Offsets, feeds: Feeds) -> dict[str, list[An
     }
 
 
-def _figures(program: Program) -> list[dict[str, Any]]:
+def _figures(program: Program) -> list[FigureEntry]:
     path = program.toolpath
     contours = find_contours(path, interpolate(path).corner_um)
     return [
@@ -177,7 +203,7 @@ def _figures(program: Program) -> list[dict[str, Any]]:
     ]
 
 
-def size_of(result: CheckResult, for_run: Chosen = USUAL) -> dict[str, Any] | None:
+def size_of(result: CheckResult, for_run: Chosen = USUAL) -> SizeEntry | None:
     """How large a program is, lengths in µm, and about how long it takes; None where its path is not known."""
     programmed = result.programmed
     if programmed is None:
@@ -189,7 +215,7 @@ def size_of(result: CheckResult, for_run: Chosen = USUAL) -> dict[str, Any] | No
         "cut_um": rounded(programmed.cut_length_um),
         "box_um": None if programmed.box_um is None else [rounded(place) for place in programmed.box_um],
         "steps": result.steps,
-        "time": _about(programmed.cut_length_um, result.length_um, for_run)._asdict(),
+        "time": _about(programmed.cut_length_um, result.length_um, for_run).entry(),
     }
 
 

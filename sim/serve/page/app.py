@@ -18,10 +18,11 @@ from starlette.routing import Route
 
 from parser.findings.errors import FileUnreadableError, ProgramError
 from parser.text.encoding import printable
-from sim.serve.page.answers import ReadFile, answer, file_of, read_file
+from sim.serve.page.answers import ReadFile, answer, file_of, file_text, printable_entry, read_file
 from sim.serve.page.child import Life
 from sim.serve.page.drawings import Drawings, is_drawing
 from sim.serve.page.form import Chosen, chosen
+from sim.serve.page.model import ChangeEntry, ChangesEntry, FileTextEntry
 from sim.serve.page.programs import STARTS, Programs, row_or_why, start
 from sim.serve.page.runs import (
     MISSING,
@@ -46,7 +47,7 @@ _MOST_LINES: Final = 40
 """Of one place, that are told."""
 
 
-def changed_lines(before: str, after: str) -> dict[str, Any]:
+def changed_lines(before: str, after: str) -> ChangesEntry:
     """The places where the lines of two texts differ, from the top; ``more`` are those beyond the first hundred.
 
     A place has ``line``, from 1, where it stands in the text after, what stood there and what stands there, and how
@@ -73,7 +74,7 @@ def _same(this: Sequence[str], other: Sequence[str]) -> int:
     return sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], zip(this, other, strict=False)))
 
 
-def _place(was: Sequence[str], now: Sequence[str], row: int) -> dict[str, Any]:
+def _place(was: Sequence[str], now: Sequence[str], row: int) -> ChangeEntry:
     return {
         "line": row + 1,
         "before": "\n".join(was[:_MOST_LINES]),
@@ -120,8 +121,7 @@ class _Files:
         read = self._answer(opened.name, opened.data, "0" if opened.file else "")
         if opened.why is None:
             return JSONResponse(read)
-        why = {language: printable(text) for language, text in opened.why._asdict().items()}
-        return JSONResponse({**read, "why": why})
+        return JSONResponse({**read, "why": printable_entry(opened.why)})
 
     async def _warm(self) -> None:
         await asyncio.sleep(_AFTER_FIRST_S)
@@ -166,7 +166,7 @@ class _Files:
         """The text of a file that came to the page, or the number that it has as a drawing."""
         return JSONResponse(self._answer(request.query_params.get("name", ""), await request.body()))
 
-    def _answer(self, name: str, data: bytes, number: str = "") -> dict[str, Any]:
+    def _answer(self, name: str, data: bytes, number: str = "") -> FileTextEntry:
         if is_drawing(name, data):
             return {**_read(name, b""), "drawing": self._drawings.keep(name, data)}
         return _read(name, data, number)
@@ -231,10 +231,10 @@ class _Last:
             return JSONResponse(await run_in_threadpool(work, *values))
 
 
-def _read(name: str, data: bytes, number: str = "") -> dict[str, Any]:
+def _read(name: str, data: bytes, number: str = "") -> FileTextEntry:
     """A file as the page has it; no text where it is none; its number, where it is one of the programs."""
     try:
         read = read_file(data) if data else ReadFile("", "utf-8", "\n")
     except ProgramError:
         return {"name": printable(name), "text": None, "encoding": "", "newline": "\n", "number": number}
-    return {"name": printable(name), **read._asdict(), "number": number}
+    return file_text(name, read, number)

@@ -24,6 +24,8 @@ from sim.show.terminal.printer import write
 
 PageRequest = dict[str, str]
 """What is asked of a job: texts by their names, of which the page says some."""
+Job = Callable[[PageRequest], Mapping[str, Any]]
+"""Does what it is asked for; what it returns is told last."""
 _STDIN: Final = 0
 _AHEAD: Final = "--ahead"
 """Argument of a process that was begun before there is a job."""
@@ -31,7 +33,9 @@ _STEPS: Final = 100
 """Of a stage, that are told."""
 
 
-def do(jobs: Mapping[str, Callable[[PageRequest], dict[str, Any]]], warm_up: Callable[[], None] | None = None) -> None:
+def do(
+    jobs: Mapping[str, Callable[[PageRequest], Mapping[str, Any]]], warm_up: Callable[[], None] | None = None
+) -> None:
     """Do the job that is asked for; the last line says what came of it.
 
     A process that was begun ahead of its job warms up first.

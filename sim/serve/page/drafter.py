@@ -5,7 +5,6 @@ large.
 """
 
 import json
-from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Final
 
@@ -14,7 +13,6 @@ from parser.drawing.read import read_drawing
 from parser.findings.catalogue import LANGUAGES, Bilingual, Language, remark_text
 from parser.findings.errors import DrycutError, Message, SettingsError
 from parser.program import load_program, moving
-from parser.text.encoding import printable
 from parser.toolpath import Toolpath
 from parser.units import from_mm
 from sim.make.cam.maker import MadeProgram, made_program, remarked, wanted_of
@@ -23,9 +21,10 @@ from sim.measure.compare.result import FitRequest
 from sim.measure.compare.starts import IN_PLACE, Placement
 from sim.run.prepare import as_run
 from sim.run.recording import stages_of
-from sim.serve.page.answers import read_file
+from sim.serve.page.answers import file_text, printable_entry, read_file
 from sim.serve.page.child import PageRequest, do, telling
 from sim.serve.page.form import number_of, offsets_um, scenario_of
+from sim.serve.page.model import DraftedEntry, LookedEntry
 from sim.setup.making import LANGUAGES as PROGRAM_LANGUAGES
 from sim.setup.making import OR_NONE_MM, OVERCUT_MM, Making, ToMake, refuse_odd
 from sim.setup.part import DrawingTarget
@@ -45,8 +44,9 @@ def _look(request: PageRequest) -> dict[str, Any]:
     drawing = read_drawing(target.file, gap_um=target.gap_um)
     placement, notes = _placement(request, drawing, target) if request["text"].strip() else (IN_PLACE, [])
     of_drawing = [Bilingual(*(remark_text(note, language) for language in LANGUAGES)) for note in drawing.notes]
-    answer = {"unit": drawing.unit, "curves": drawing_columns(drawing, placement), "told": _both([*of_drawing, *notes])}
-    return _written_answer(request, answer)
+    remarks = list(map(printable_entry, [*of_drawing, *notes]))
+    looked: LookedEntry = {"unit": drawing.unit, "curves": drawing_columns(drawing, placement), "told": remarks}
+    return _written_answer(request, looked)
 
 
 def _make(request: PageRequest) -> dict[str, Any]:
@@ -61,13 +61,16 @@ def _make(request: PageRequest) -> dict[str, Any]:
     wanted = wanted_of(to_make, to_make.language, scenario)
     done = made_program(drawing, to_make.making, wanted, scenario, progress)
     if not isinstance(done, MadeProgram):
-        return _written_answer(
-            request, {"program": None, "told": _both([why_refused(done.refusal)]), "is_proved": False}
-        )
+        why = printable_entry(why_refused(done.refusal))
+        return _written_answer(request, {"program": None, "told": [why], "is_proved": False})
     lines = [Bilingual(*both) for both in zip(*(_summary(done, language) for language in LANGUAGES), strict=True)]
     data = done.data if done.is_proved else remarked(done, [*against(done, "en")], wanted).data
-    program = {"name": printable(file.name), **read_file(data)._asdict(), "number": ""}
-    return _written_answer(request, {"program": program, "told": _both(lines), "is_proved": done.is_proved})
+    drafted: DraftedEntry = {
+        "program": file_text(file.name, read_file(data)),
+        "told": list(map(printable_entry, lines)),
+        "is_proved": done.is_proved,
+    }
+    return _written_answer(request, drafted)
 
 
 def _making(request: PageRequest) -> Making:
@@ -101,11 +104,7 @@ def _path(request: PageRequest, scenario: Scenario) -> Toolpath:
     return as_run(program, scenario.offset).toolpath
 
 
-def _both(texts: list[Bilingual]) -> list[dict[str, str]]:
-    return [{"en": printable(bilingual.en), "zh": printable(bilingual.zh)} for bilingual in texts]
-
-
-def _written_answer(request: PageRequest, found: Mapping[str, Any]) -> dict[str, Any]:
+def _written_answer(request: PageRequest, found: LookedEntry | DraftedEntry) -> dict[str, Any]:
     """Nothing: what was found goes into the file that was asked for."""
     Path(request["result_file"]).write_text(json.dumps(found), encoding="utf-8")
     return {}

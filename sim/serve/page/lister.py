@@ -5,12 +5,13 @@ It has processes of its own, one a core; they end with it.
 
 import json
 from pathlib import Path
-from typing import Any, Final
+from typing import Final
 
 from parser.files import read_bytes
 from parser.findings.errors import FileUnreadableError, in_both
 from sim.base.workers.rounds import DIED, Lost, Processes, in_order, results
 from sim.serve.page.child import read_request
+from sim.serve.page.model import RowEntry
 from sim.serve.page.programs import refused, row_or_why
 from sim.show.terminal.printer import write
 from sim.show.texts.phrases import same
@@ -27,7 +28,7 @@ def main() -> None:
         write(f"{json.dumps(refused(name, same(DIED)) if isinstance(row, Lost) else row)}\n", "json")
 
 
-def _row(named_file: tuple[str, Path]) -> dict[str, Any]:
+def _row(named_file: tuple[str, Path]) -> RowEntry:
     name, file = named_file
     try:
         data = read_bytes(file)

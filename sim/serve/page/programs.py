@@ -13,23 +13,24 @@ import asyncio
 import traceback
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, Final, NamedTuple
+from typing import Final, NamedTuple, cast
 
 from parser.files import read_bytes
-from parser.findings.catalogue import LANGUAGES, Bilingual, page, texts
+from parser.findings.catalogue import LANGUAGES, Bilingual, texts
 from parser.findings.errors import DrycutError, FileUnreadableError, ProgramError
 from parser.findings.findings import Finding, counted
 from parser.text.encoding import printable
 from sim.check.file_check import as_typed
 from sim.check.files import find_files
 from sim.jobs.examples import example
-from sim.serve.page.answers import read_file, size_of
+from sim.serve.page.answers import printable_entry, read_file, size_of
 from sim.serve.page.child import Child, begun
-from sim.show.index_page.page import thumbnail
+from sim.serve.page.model import RowEntry, RowsEntry
+from sim.show.index_page.page import thumbnail, title_of
 from sim.show.texts.phrases import same
 
 
-def row_of(name: str, file: Path | None, data: bytes) -> dict[str, Any]:
+def row_of(name: str, file: Path | None, data: bytes) -> RowEntry:
     """The row of a file's bytes, whatever they hold; `file` is where they stand, None where nobody knows.
 
     Lengths are µm. ``verdict`` is pass, to-check, incomplete, fail, or refused where there is no program.
@@ -43,12 +44,12 @@ def row_of(name: str, file: Path | None, data: bytes) -> dict[str, Any]:
         return _row(name, "refused", result.findings, _message(result.findings[0]))
     size = size_of(result)
     row = _row(name, result.outcome, result.findings)
-    if program is not None and len(program.toolpath) and size is not None:
-        row |= {"picture": thumbnail(program.toolpath), "cut_um": size["cut_um"], "box_um": size["box_um"]}
-    return row
+    if program is None or not len(program.toolpath) or size is None:
+        return row
+    return {**row, "picture": thumbnail(program.toolpath), "cut_um": size["cut_um"], "box_um": size["box_um"]}
 
 
-def row_or_why(name: str, file: Path | None, data: bytes) -> dict[str, Any]:
+def row_or_why(name: str, file: Path | None, data: bytes) -> RowEntry:
     """As `row_of`; where drycut itself fails at it, the row says so."""
     try:
         return row_of(name, file, data)
@@ -58,7 +59,7 @@ def row_or_why(name: str, file: Path | None, data: bytes) -> dict[str, Any]:
         return _row(name, "fault", message=same(traceback.format_exc().strip().splitlines()[-1]))
 
 
-def refused(name: str, why: Bilingual) -> dict[str, Any]:
+def refused(name: str, why: Bilingual) -> RowEntry:
     """The row of a file that cannot be read."""
     return _row(name, "refused", message=why)
 
@@ -67,16 +68,16 @@ def _message(finding: Finding) -> Bilingual:
     return Bilingual(*(texts(finding, language).message for language in LANGUAGES))
 
 
-def _row(name: str, verdict: str, findings: Sequence[Finding] = (), message: Bilingual | None = None) -> dict[str, Any]:
+def _row(name: str, verdict: str, findings: Sequence[Finding] = (), message: Bilingual | None = None) -> RowEntry:
     counts = counted(findings)
     name_text = printable(name)
     return {
         "file": name_text,
         "title": name_text,
         "verdict": verdict,
-        "message": None if message is None else {"en": printable(message.en), "zh": printable(message.zh)},
+        "message": None if message is None else printable_entry(message),
         "findings": [{"code": of.code, "severity": str(of.severity), "count": of.n} for of in counts],
-        "titles": {of.code: {language: page(of.code, language).title for language in LANGUAGES} for of in counts},
+        "titles": {of.code: title_of(of.code).entry() for of in counts},
         "picture": "",
         "cut_um": None,
         "box_um": None,
@@ -119,7 +120,7 @@ class Programs:
         self._folder = opened.folder
         self._files: list[Path] = [opened.file] if opened.file else []
         self._first = self._left_out = 0
-        self._rows: list[dict[str, Any]] = []
+        self._rows: list[RowEntry] = []
         self._turn = asyncio.Lock()  # two tabs may ask at the same moment
         self._child: Child | None = None
         self._following: asyncio.Task[None] | None = None
@@ -145,7 +146,7 @@ class Programs:
                 await self._end()
                 await asyncio.to_thread(self._look, self._folder)
 
-    async def rows(self, known: int, list_: int) -> dict[str, Any]:
+    async def rows(self, known: int, list_: int) -> RowsEntry:
         """How far the check of the folder is, and the rows behind those that are `known` of a list.
 
         The check begins when it is first asked for. ``list`` is another one once the folder was looked through again:
@@ -202,7 +203,7 @@ class Programs:
     async def _follow(self, child: Child, named_files: list[tuple[str, str]]) -> None:
         rows = self._rows
         async for row in child.tells(named_files):
-            rows.append({**row, "number": str(self._first + len(rows))})
+            rows.append(cast(RowEntry, {**row, "number": str(self._first + len(rows))}))
 
 
 _SOUND: Final = "keyhole"

@@ -4,7 +4,7 @@ It is a process of its own so that it can be ended at any moment, and so that th
 a job; so are a film and the pictures of a run, which make it again: the same run, since the same input gives the same.
 """
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
@@ -22,8 +22,9 @@ from sim.run.findings import outcome
 from sim.run.recording import Recording, recorded, stages_of
 from sim.run.running import dry_run
 from sim.serve.page.answers import found_in, pages_of
-from sim.serve.page.child import PageRequest, do, telling
+from sim.serve.page.child import Job, PageRequest, do, telling
 from sim.serve.page.form import number_of, scenario_of
+from sim.serve.page.model import RanEntry
 from sim.setup.scenario import Scenario, load_scenario
 from sim.setup.toml.reader import Bound
 from sim.show.draw.sheet import SIZES_PX
@@ -43,7 +44,7 @@ _LEAST: Final = b"G21\nG92 X0 Y0\nG01 X1. Y0\nX1. Y1.\nX0 Y0\nM02\n"
 _SETS: Final = Bound(1.0, float(drill_set.MOST_SETS))
 
 
-def _run(request: PageRequest) -> dict[str, Any]:
+def _run(request: PageRequest) -> RanEntry:
     """Run, with the files of every run."""
     scenario = scenario_of(request, Path(request["file"]))
     progress = telling(stages_of_files(scenario, trace=False))
@@ -52,7 +53,7 @@ def _run(request: PageRequest) -> dict[str, Any]:
     found = [finding for finding in run.findings if finding not in run.checked]
     return {
         "verdict": outcome(run.findings),
-        "machine": machine_name(scenario.machine)._asdict(),
+        "machine": machine_name(scenario.machine).entry(),
         "findings": found_in(program.text, found[:_MOST_FOUND]),
         "pages": pages_of(found[:_MOST_FOUND]),
     }
@@ -92,7 +93,7 @@ def _drills(request: PageRequest) -> dict[str, Any]:
     return {}
 
 
-_JOBS: Final[Mapping[str, Callable[[PageRequest], dict[str, Any]]]] = {
+_JOBS: Final[Mapping[str, Job]] = {
     "run": _run,
     "film": _film,
     "pictures": _pictures,

@@ -7,7 +7,7 @@ The drawing and the path of a damaged program over it, as SVG path data in one b
 
 from collections.abc import Collection, Sequence
 from pathlib import Path
-from typing import Any, Final, NamedTuple
+from typing import Any, Final, NamedTuple, TypedDict
 
 import numpy as np
 
@@ -23,7 +23,7 @@ from sim.show.draw.flatten import bounds_um, cut_runs, flatten, simplify
 from sim.show.draw.svg import path_data
 from sim.show.html.environment import rendered
 from sim.show.texts import bilingual
-from sim.teach.drills import Drill, lines_of
+from sim.teach.drills import Drill, Level, lines_of
 from sim.teach.kinds import groups_of
 
 WIDTH, HEIGHT = 720, 480
@@ -156,15 +156,30 @@ def _drill_document(found: Finding) -> dict[str, Any]:
 _ASSETS: Final = Path(__file__).with_name("assets")
 
 
+class DrillEntry(TypedDict):
+    """A task: lines of the program that are right answers, what is wrong, and what gives it away."""
+
+    lines: list[int]
+    group: str
+    level: Level
+
+
+class DrillsEntry(TypedDict):
+    """The number of the set, and its tasks."""
+
+    set: int
+    drills: list[DrillEntry]
+
+
 def drill_page(sound: Program, drills: Sequence[Drill], number: int, files: Sequence[str]) -> str:
     """``drill.html``: the tasks one after the other, with what weighs the answers; printed, the tasks alone.
 
     `number` is that of the set, `files` are the names of the damaged programs. The same set gives the same bytes.
     Whatever a program says stands escaped.
     """
-    data = {
+    data: DrillsEntry = {
         "set": number,
-        "drills": [{"lines": drill.lines, "group": drill.group, "level": drill.level} for drill in drills],
+        "drills": [{"lines": list(drill.lines), "group": drill.group, "level": drill.level} for drill in drills],
     }
     return _page("drill.html.j2", sound, drills, number, files=files, data=data, places=places_of(sound.toolpath))
 

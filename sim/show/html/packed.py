@@ -8,7 +8,7 @@ import base64
 import json
 import zlib
 from collections.abc import Sequence
-from typing import Any
+from typing import Annotated, Any, TypedDict
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,6 +24,16 @@ _DIGITS = 12
 """Decimals that a packed number may have."""
 _LARGEST = 2.0**51
 """Below it changes between two numbers are whole in a page's own numbers, counted as `varints` counts them."""
+
+
+class PackedEntry(TypedDict):
+    """A long column: its numbers as changes from one to the next, times `per`; or any values as JSON."""
+
+    count: int
+    per: int
+    numbers: str | None
+    none: Annotated[str | None, "a byte for each number, 1 where there is none; null where there are all"]
+    json: str | None
 
 
 class Packer:
@@ -64,7 +74,7 @@ def varints(values: Ints) -> NDArray[np.uint8]:
     return result
 
 
-def packed(values: Sequence[Any]) -> Sequence[Any] | dict[str, Any]:
+def packed(values: Sequence[Any]) -> Sequence[Any] | PackedEntry:
     """A column of a page's data: as it is, or packed where it is long, for ``unpacked`` of ``assets/packed.js``.
 
     The page has the same values, to the last bit of a number; None stays None.
@@ -72,10 +82,13 @@ def packed(values: Sequence[Any]) -> Sequence[Any] | dict[str, Any]:
     if len(values) < LONG:
         return values
     numbers = None if any(isinstance(value, str | bool | list | dict | tuple) for value in values) else _numbers(values)
-    return numbers or _column(len(values), json=_text(json.dumps(values, ensure_ascii=False).encode()))
+    if numbers is not None:
+        return numbers
+    text = _text(json.dumps(values, ensure_ascii=False).encode())
+    return {"count": len(values), "per": 1, "numbers": None, "none": None, "json": text}
 
 
-def _numbers(values: Sequence[float | None]) -> dict[str, Any] | None:
+def _numbers(values: Sequence[float | None]) -> PackedEntry | None:
     """Numbers as changes from one to the next, a gap as no change; None where they have too many digits."""
     lacks = np.array([value is None for value in values])
     known = np.array([0.0 if value is None else value for value in values], dtype=np.float64)
@@ -87,7 +100,7 @@ def _numbers(values: Sequence[float | None]) -> dict[str, Any] | None:
     packer = Packer()
     packer.numbers(np.diff(whole[last], prepend=0))
     none = _text(lacks.astype(np.uint8).tobytes()) if lacks.any() else None
-    return _column(len(values), per=per, numbers=packer.text(), none=none)
+    return {"count": len(values), "per": per, "numbers": packer.text(), "none": none, "json": None}
 
 
 def _whole(values: Floats) -> tuple[Ints, int] | None:
@@ -100,10 +113,6 @@ def _whole(values: Floats) -> tuple[Ints, int] | None:
         if np.array_equal(whole / per, values):
             return whole.astype(np.int64), per
     return None
-
-
-def _column(count: int, **of: Any) -> dict[str, Any]:
-    return {"count": count, "per": 1, "numbers": None, "none": None, "json": None} | of
 
 
 def _text(content: bytes) -> str:

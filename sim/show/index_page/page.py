@@ -3,9 +3,9 @@
 A path as a picture the size of a thumbnail: data of an SVG path, some hundred bytes, drawn in the page's colours.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, Final, NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from sim.base.units import hours_text
 from sim.show.draw.flatten import bounds_um, cut_runs, flatten, simplify
 from sim.show.draw.svg import path_data
 from sim.show.html.environment import rendered
+from sim.show.index_page.model import CountsEntry, IndexDocument, IndexEntry, IndexRowEntry, ProgramEntry
 
 WIDTH, HEIGHT = 96, 72
 """Of the box that the picture fills, whole units; y points down."""
@@ -58,26 +59,22 @@ class BesideTheIndex(NamedTuple):
     message: Bilingual
 
 
-def index_page(index: Mapping[str, Any], additions: Sequence[BesideTheIndex]) -> str:
+def index_page(index: IndexDocument, additions: Sequence[BesideTheIndex]) -> str:
     """``index.html`` of an index; `additions` are more of its programs, in their order.
 
     The same index gives the same bytes. Whatever a program or a file name says stands escaped.
     """
     programs = index["programs"]
     codes = sorted({found["code"] for program in programs for found in program["findings"]})
-    return rendered(
-        _ASSETS,
-        "index.html.j2",
-        counts=counts_shown(index["counts"]),
-        data={
-            "programs": [_program(program, more) for program, more in zip(programs, additions, strict=True)],
-            "titles": {code: _title(code)._asdict() for code in codes},
-            "box": [WIDTH, HEIGHT],
-        },
-    )
+    data: IndexEntry = {
+        "programs": [_program(program, more) for program, more in zip(programs, additions, strict=True)],
+        "titles": {code: title_of(code).entry() for code in codes},
+        "box": [WIDTH, HEIGHT],
+    }
+    return rendered(_ASSETS, "index.html.j2", counts=counts_shown(index["counts"]), data=data)
 
 
-def _program(program: Mapping[str, Any], more: BesideTheIndex) -> dict[str, Any]:
+def _program(program: IndexRowEntry, more: BesideTheIndex) -> ProgramEntry:
     time_s = program["time_s"]
     return {
         **program,
@@ -85,19 +82,20 @@ def _program(program: Mapping[str, Any], more: BesideTheIndex) -> dict[str, Any]
         "worst_um": program["max_um"] if program["drawing_um"] is None else program["drawing_um"],
         "verdict": outcome_of(program),
         "picture": more.picture,
-        "message": more.message._asdict() if more.message.en else None,
+        "message": more.message.entry() if more.message.en else None,
     }
 
 
-def outcome_of(program: Mapping[str, Any]) -> str:
+def outcome_of(program: IndexRowEntry) -> str:
     """The verdict of a program of an index as people are told it."""
     return "to-check" if program["to_check"] else str(program["verdict"])
 
 
-def counts_shown(counts: Mapping[str, int]) -> dict[str, int]:
+def counts_shown(counts: CountsEntry) -> CountsEntry:
     """Counts of an index as people are told them: what is to be checked does not count among what passes."""
     return {**counts, "pass": counts["pass"] - counts["to_check"]}
 
 
-def _title(code: str) -> Bilingual:
+def title_of(code: str) -> Bilingual:
+    """Title of a code."""
     return Bilingual(*(page(code, language).title for language in LANGUAGES))

@@ -51,9 +51,9 @@ from sim.show.keys import OF_PAGE, actions_of
 from sim.show.replay.model import (
     BlocksEntry,
     ContourEntry,
+    CurvesEntry,
     DecodedBlockEntry,
     DecodingEntry,
-    DrawnEntry,
     EndingEntry,
     FindingEntry,
     FindingTextsEntry,
@@ -352,9 +352,9 @@ def replay_document(recording: Recording) -> ReplayDocument:
     }
 
 
-def _drawing(run: DryRun) -> DrawnEntry | None:
+def _drawing(run: DryRun) -> CurvesEntry | None:
     found = run.comparison
-    return None if found is None else cast(DrawnEntry, drawing_columns(found.drawing, found.placement))
+    return None if found is None else drawing_columns(found.drawing, found.placement)
 
 
 def _program(program: Program) -> ProgramEntry:

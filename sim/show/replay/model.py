@@ -33,8 +33,8 @@ class ClampEntry(TypedDict):
     outline_um: list[Point]
 
 
-class BlocksEntry(TypedDict):
-    """Columns of n blocks; `place_*`, `first_step` and `border_s` have n + 1.
+class CurvesEntry(TypedDict):
+    """Columns of n curves, each from the end of the one before it; `place_*` have n + 1.
 
     What only an arc has is null elsewhere, where nothing asks for it.
     """
@@ -48,6 +48,11 @@ class BlocksEntry(TypedDict):
     start_angle_rad: Annotated[list[float], "of an arc"]
     sweep_rad: Annotated[list[float], "of an arc"]
     length_um: list[float]
+
+
+class BlocksEntry(CurvesEntry):
+    """Columns of n blocks, as of curves; `first_step` and `border_s` have n + 1."""
+
     word_x_um: list[int]
     word_y_um: list[int]
     count_um: list[int]
@@ -240,20 +245,6 @@ class TapeEntry(TypedDict):
     foot_row: str
 
 
-class DrawnEntry(TypedDict):
-    """Columns of n curves, each from the end of the one before it; `place_*` have n + 1."""
-
-    kind: list[CurveName]
-    place_x_um: list[float]
-    place_y_um: list[float]
-    center_x_um: Annotated[list[float], "of an arc"]
-    center_y_um: Annotated[list[float], "of an arc"]
-    radius_um: Annotated[list[float], "of an arc"]
-    start_angle_rad: Annotated[list[float], "of an arc"]
-    sweep_rad: Annotated[list[float], "of an arc"]
-    length_um: list[float]
-
-
 class ReplayDocument(TypedDict):
     """A recorded run; rows of blocks count from 0, steps from 1; places and lengths are µm of the program."""
 
@@ -273,7 +264,7 @@ class ReplayDocument(TypedDict):
     work_um: list[Point] | None
     clamps: list[ClampEntry]
     has_jumps: bool
-    drawing: Annotated[DrawnEntry | None, "that the cut was held against, as it lies on the part"]
+    drawing: Annotated[CurvesEntry | None, "that the cut was held against, as it lies on the part"]
     blocks: BlocksEntry
     decoding: Annotated[DecodingEntry | None, "null where the dialect decodes no words, and of long programs"]
     plan: PlanEntry

@@ -12,7 +12,7 @@ A column of numbers is text, as `sim.show.html.packed` packs it.
 
 from collections.abc import Iterator
 from itertools import pairwise
-from typing import Any, NamedTuple
+from typing import NamedTuple, cast
 
 import numpy as np
 
@@ -22,28 +22,31 @@ from parser.geometry.curves import CurveKind, Curves, Floats, Ints, joined, jump
 from sim.base.units import column
 from sim.measure.compare.starts import Placement, laid_loops
 from sim.show.html.packed import Packer
-from sim.show.replay.model import TapeEntry
+from sim.show.replay.model import CurvesEntry, TapeEntry
 from sim.table.trace import Trace
 
 _ANGLE_DIGITS = 12
 """On a radius of a metre they tell a place to 10⁻⁶ µm, as its own digits do."""
 
 
-def exact_columns(path: Curves) -> dict[str, list[Any]]:
+def exact_columns(path: Curves) -> CurvesEntry:
     """Columns of n curves, each from the end of the last one, that pages draw a path by; `place_*` have n + 1."""
-    place = np.concatenate([path.start_um[:1], path.end_um])
-    return {
+    place_um = np.concatenate([path.start_um[:1], path.end_um])
+    columns = {
         "kind": [CurveKind(kind).name.lower() for kind in path.kind.tolist()],
-        **_pairs("place", place),
-        **_pairs("center", path.center_um),
+        "place_x_um": column(place_um[:, 0]),
+        "place_y_um": column(place_um[:, 1]),
+        "center_x_um": column(path.center_um[:, 0]),
+        "center_y_um": column(path.center_um[:, 1]),
         "radius_um": column(path.radius_um),
         "start_angle_rad": column(path.start_angle_rad, _ANGLE_DIGITS),
         "sweep_rad": column(path.sweep_rad, _ANGLE_DIGITS),
         "length_um": column(path.length_um),
     }
+    return cast(CurvesEntry, columns)  # what an arc alone has is None elsewhere
 
 
-def drawing_columns(drawing: Drawing, placement: Placement) -> dict[str, list[Any]]:
+def drawing_columns(drawing: Drawing, placement: Placement) -> CurvesEntry:
     """Columns that pages draw a drawing by as it is laid: its loops one behind the other, with jumps between them."""
     return exact_columns(joined(list(_with_jumps(laid_loops(drawing, placement)))))
 
@@ -54,10 +57,6 @@ def _with_jumps(loops: list[Curves]) -> Iterator[Curves]:
     for before, behind in pairwise(loops):
         yield jump_between(before.end_um[-1], behind.start_um[0])
         yield behind
-
-
-def _pairs(name: str, place_um: Floats) -> dict[str, list[float | None]]:
-    return {f"{name}_{axis}_um": column(place_um[:, at]) for at, axis in enumerate("xy")}
 
 
 TICK_S = 1e-5

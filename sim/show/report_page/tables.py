@@ -4,19 +4,41 @@ Tables of what a cut leaves: pieces, their sizes, and the worst places beside th
 """
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import Any, Final, Literal, NamedTuple
+from typing import Annotated, Any, Final, Literal, NamedTuple, TypedDict
 
+from parser.documents import SaidEntry
 from parser.findings.catalogue import Bilingual
 from parser.text.source import BlockNames
 from parser.units import UM_PER_MM
 from sim.run.report.cut_model import BoxEntry, DistanceEntry, PieceEntry, RadiusEntry, ShiftEntry, SizesEntry
 from sim.run.report.drawing import CornerEntry, PlaceEntry
-from sim.show.html.packed import packed
+from sim.show.html.packed import PackedEntry, packed
 from sim.show.texts import bilingual
 
 _LONG_S: Final = 600.0
 
 Kind = Literal["number", "text", "code", "word", "codes"]
+Cell = float | str | list[tuple[str, str]] | None
+"""A value of a column; of ``codes`` pairs of a code and its address in the page."""
+
+
+class ColumnEntry(TypedDict):
+    """One column of a table, as `Column` says; a long one has its values packed."""
+
+    head: SaidEntry
+    values: Annotated[Sequence[Cell] | PackedEntry, "one a row; null shows as a dash"]
+    kind: Kind
+    unit: str
+    per: Annotated[float, "a number shows divided by it"]
+    digits: int
+    words: Annotated[dict[str, SaidEntry], "what the keys of a column of words say"]
+
+
+class TableDataEntry(TypedDict):
+    """A table: its name in the page, and what stands in it."""
+
+    name: str
+    columns: list[ColumnEntry]
 
 
 class Column(NamedTuple):
@@ -61,7 +83,7 @@ class ReportTable(NamedTuple):
         """How many rows it has."""
         return len(self.columns[0].values)
 
-    def data(self) -> dict[str, Any]:
+    def data(self) -> "TableDataEntry":
         """The table for the page's script; long columns are packed."""
         return {"name": self.name, "columns": [_data(column) for column in self.columns]}
 
@@ -136,9 +158,16 @@ def _under(keys: Iterable[str], entry: Any) -> Any:
     return entry
 
 
-def _data(column: Column) -> dict[str, Any]:
-    words = {key: text._asdict() for key, text in column.words.items()}
-    return column._asdict() | {"head": column.head._asdict(), "values": packed(column.values), "words": words}
+def _data(column: Column) -> ColumnEntry:
+    return {
+        "head": column.head.entry(),
+        "values": packed(column.values),
+        "kind": column.kind,
+        "unit": column.unit,
+        "per": column.per,
+        "digits": column.digits,
+        "words": {key: text.entry() for key, text in column.words.items()},
+    }
 
 
 def piece_table(entries: list[PieceEntry], names: BlockNames) -> ReportTable:

@@ -1,6 +1,15 @@
 // What the page hands over to its script.
 import { element } from "../../html/assets/elements.js";
 
+/** Written by `make pages` from the model in Python. */
+
+/**
+ * The number of the set, and its tasks.
+ * @typedef {object} Drills
+ * @property {number} set
+ * @property {Drill[]} drills
+ */
+
 /**
  * A task: lines of the program that are right answers, what is wrong, and what gives it away.
  * @typedef {object} Drill
@@ -9,9 +18,11 @@ import { element } from "../../html/assets/elements.js";
  * @property {"words" | "picture" | "sums"} level
  */
 
+/** Up to here. */
+
 /**
  * The number of the set, and its tasks.
- * @returns {{ set: number, drills: Drill[] }}
+ * @returns {Drills}
  */
 export function readDrills() {
   return JSON.parse(element("#drills", HTMLElement).textContent);

@@ -1,5 +1,7 @@
 // Columns that Python hands over packed (sim/show/html/packed.py): deflated bytes in base64.
 
+/** Written by `make pages` from the model in Python. */
+
 /**
  * A long column: its numbers as changes from one to the next, times `per`; or any values as JSON.
  * @typedef {object} Packed
@@ -9,6 +11,8 @@
  * @property {string | null} none a byte for each number, 1 where there is none; null where there are all
  * @property {string | null} json
  */
+
+/** Up to here. */
 
 /**
  * Bytes of a text in base64.

@@ -3,25 +3,28 @@ import { element } from "../../html/assets/elements.js";
 
 /** @import { Said } from "../../html/assets/language.js" */
 
-/** @typedef {"pass" | "to-check" | "incomplete" | "fail" | "refused" | "fault"} Verdict incomplete of a check alone */
+/** @typedef {Program["verdict"]} Verdict */
+/** @typedef {Pick<Program, "file" | "title" | "verdict" | "message" | "findings" | "picture">} Listed what any list has */
+
+/** Written by `make pages` from the model in Python. */
 
 /**
- * Findings of one code.
- * @typedef {object} Found
- * @property {string} code
- * @property {"error" | "warning" | "note"} severity
- * @property {number} count
+ * All of a shop.
+ * @typedef {object} Index
+ * @property {Program[]} programs
+ * @property {Record<string, Said>} titles of the codes that occur
+ * @property {[number, number]} box width and height of the pictures
  */
 
 /**
- * One program; what its run tells is null where there is none.
+ * A program as the page has it; what its run tells is null where there is none.
  * @typedef {object} Program
  * @property {string} file
  * @property {string} title
  * @property {string | null} title_zh in Chinese, where that is another one
- * @property {Verdict} verdict
+ * @property {"pass" | "to-check" | "incomplete" | "fail" | "refused" | "fault"} verdict
  * @property {Said | null} message why there is no report
- * @property {Found[]} findings the worst first
+ * @property {FindingCount[]} findings the worst first
  * @property {boolean} to_check
  * @property {number | null} time_s
  * @property {string} time in hours, minutes and seconds; empty where nothing ran
@@ -33,15 +36,15 @@ import { element } from "../../html/assets/elements.js";
  * @property {string} picture data of an SVG path
  */
 
-/** @typedef {Pick<Program, "file" | "title" | "verdict" | "message" | "findings" | "picture">} Listed what any list has */
-
 /**
- * All of a shop.
- * @typedef {object} Index
- * @property {Program[]} programs
- * @property {Record<string, Said>} titles of the codes that occur
- * @property {[width: number, height: number]} box of the pictures
+ * How many findings a code has.
+ * @typedef {object} FindingCount
+ * @property {string} code
+ * @property {"error" | "warning" | "note"} severity
+ * @property {number} count
  */
+
+/** Up to here. */
 
 /**
  * The index of the page.

@@ -3,7 +3,7 @@ import { both, make } from "../../html/assets/elements.js";
 import { pick, said, say } from "../../html/assets/language.js";
 
 /** @import { Said } from "../../html/assets/language.js" */
-/** @import { Found, Index, Listed, Program } from "./data.js" */
+/** @import { FindingCount, Index, Listed, Program } from "./data.js" */
 
 const SVG = "http://www.w3.org/2000/svg";
 const NOTHING = "–";
@@ -76,7 +76,7 @@ function named(program) {
 
 /**
  * The codes of findings, with how often each occurs.
- * @param {Found[]} findings
+ * @param {FindingCount[]} findings
  * @param {Record<string, Said>} titles
  */
 export function codes(findings, titles) {

@@ -1,98 +1,17 @@
-// What the server answers (sim/serve/page/answers.py): its JSON, by name and type. Places in a text count UTF-16 units.
+// What the server answers (sim/serve/page/model.py): its JSON, by name and type. Places in a text count UTF-16 units.
 
 /**
  * @import { Said } from "../../html/assets/language.js"
- * @import { Found, Verdict } from "../../index_page/assets/data.js"
- * @import { Curves } from "../../replay/assets/document.js"
+ * @import { FindingCount } from "../../index_page/assets/data.js"
+ * @import { Curves, Place } from "../../replay/assets/document.js"
  */
 
-/**
- * A file as a text with lines that end with LF, and what brings back its bytes; of a drawing its number.
- * @typedef {object} FileText
- * @property {string} [drawing]
- * @property {string} name
- * @property {string | null} text null where it is none
- * @property {string} encoding
- * @property {string} newline how all lines end; where they end in several ways, a letter for each
- * @property {string} number of the program whose file it is; empty where it came to the page
- * @property {Said | null} [why] what was to be open at the start could not be
- */
+/** @typedef {Finding["edits"][number]} Edit First, past, and the text in their place. */
 
-/** @typedef {[first: number, past: number, text: string]} Edit */
+/** Written by `make pages` from the model in Python. */
 
 /**
- * A drawing (sim/serve/page/drafter.py): its curves as they lie beneath the program, and what there is to say; else why not.
- * @typedef {object} Looked
- * @property {Curves} [curves]
- * @property {Said[]} told
- * @property {Said | null} [why]
- */
-
-/**
- * The program that was made of a drawing; none where it was refused, and what there is to say.
- * @typedef {object} Drafted
- * @property {FileText | null} program
- * @property {Said[]} told
- * @property {boolean} is_proved
- */
-
-/**
- * @typedef {object} Finding
- * @property {string} code
- * @property {"error" | "warning" | "note"} severity
- * @property {Said} title
- * @property {Said} message
- * @property {Said} hint
- * @property {number} line from 1; 0 of the whole program
- * @property {number} block
- * @property {string} block_name as the listing has it
- * @property {number} first
- * @property {number} past
- * @property {Edit[]} edits that certainly mend it
- */
-
-/**
- * The page of a code, Markdown.
- * @typedef {object} Explained
- * @property {Said} why
- * @property {Said} mend
- */
-
-/**
- * Where each block stands in the text.
- * @typedef {object} Sources
- * @property {number[]} line
- * @property {number[]} first
- * @property {number[]} past
- * @property {string[]} name of each block as the listing has it
- */
-
-/**
- * A path: when each block begins at the machine's feeds, one more than blocks, and which of them are leads.
- * @typedef {Curves & Sources & { length_um: number[], border_s: number[], is_lead: boolean[] }} Path
- */
-
-/**
- * @typedef {object} Figure
- * @property {number} first
- * @property {number} last
- * @property {number} length_um
- * @property {boolean | null} closes null of a parting cut
- * @property {[x: number, y: number]} thread_um
- */
-
-/**
- * @typedef {object} Size
- * @property {number} lines
- * @property {number} arcs
- * @property {number} rapids
- * @property {number} cut_um
- * @property {[left: number, bottom: number, right: number, top: number] | null} box_um
- * @property {number} steps
- * @property {Said} time about how long the cut takes
- */
-
-/**
+ * What is found in a text, and its path.
  * @typedef {object} Answer
  * @property {string} name
  * @property {string} dialect
@@ -107,44 +26,157 @@
  */
 
 /**
- * Lines that are others than in an earlier text (sim/serve/page/app.py).
- * @typedef {object} Place
- * @property {number} line from 1, in the text after
- * @property {string} before
- * @property {string} after
- * @property {[before: number, after: number]} lines how many; of long ones the first are told
+ * A finding of a text.
+ * @typedef {object} Finding
+ * @property {string} code
+ * @property {"error" | "warning" | "note"} severity
+ * @property {Said} title
+ * @property {Said} message
+ * @property {Said} hint
+ * @property {number} line from 1; 0 of the whole program
+ * @property {number} block
+ * @property {string} block_name as the listing has it
+ * @property {number} first
+ * @property {number} past
+ * @property {[number, number, string][]} edits that certainly mend it
  */
 
 /**
+ * The page of a code, Markdown.
+ * @typedef {object} Explained
+ * @property {Said} why
+ * @property {Said} mend
+ */
+
+/**
+ * A path: its columns, where each block stands in the text, and when it begins; `border_s` has n + 1.
+ * @typedef {object} Path
+ * @property {("line" | "arc" | "jump")[]} kind
+ * @property {number[]} place_x_um
+ * @property {number[]} place_y_um
+ * @property {number[]} center_x_um of an arc
+ * @property {number[]} center_y_um of an arc
+ * @property {number[]} radius_um of an arc
+ * @property {number[]} start_angle_rad of an arc
+ * @property {number[]} sweep_rad of an arc
+ * @property {number[]} length_um
+ * @property {number[]} line
+ * @property {number[]} first
+ * @property {number[]} past
+ * @property {string[]} name of each block as the listing has it
+ * @property {number[]} border_s at the machine's feeds
+ * @property {boolean[]} is_lead
+ */
+
+/**
+ * A contour by its first and last blocks.
+ * @typedef {object} Figure
+ * @property {number} first
+ * @property {number} last
+ * @property {number} length_um
+ * @property {boolean | null} closes null of a parting cut
+ * @property {Place} thread_um
+ */
+
+/**
+ * How large a program is.
+ * @typedef {object} Size
+ * @property {number} lines
+ * @property {number} arcs
+ * @property {number} rapids
+ * @property {number} cut_um
+ * @property {[number, number, number, number] | null} box_um
+ * @property {number} steps
+ * @property {Said} time about how long the cut takes
+ */
+
+/**
+ * The places where the lines of two texts differ.
  * @typedef {object} Changes
- * @property {Place[]} places
+ * @property {Change[]} places
  * @property {number} more places that are not told
  */
 
 /**
- * A program in a list (sim/serve/page/programs.py).
- * @typedef {object} Row
- * @property {string} file
- * @property {string} title
- * @property {Verdict} verdict
- * @property {Said | null} message why there is no program
- * @property {Found[]} findings the worst first
- * @property {Record<string, Said>} titles of their codes
- * @property {string} picture data of an SVG path
- * @property {number | null} cut_um
- * @property {[left: number, bottom: number, right: number, top: number] | null} box_um
- * @property {string} [number] of a program of the folder
+ * Lines that are others than in an earlier text.
+ * @typedef {object} Change
+ * @property {number} line from 1, in the text after
+ * @property {string} before
+ * @property {string} after
+ * @property {[number, number]} lines how many before and after; of long ones the first are told
  */
 
 /**
- * How far the check of a folder is (sim/serve/page/programs.py).
+ * The program that was made of a drawing; none where it was refused, and what there is to say.
+ * @typedef {object} Drafted
+ * @property {FileText | null} program
+ * @property {Said[]} told
+ * @property {boolean} is_proved
+ */
+
+/**
+ * A file as a text with lines that end with LF, and what brings back its bytes; of a drawing its number.
+ * @typedef {object} FileText
+ * @property {string} name
+ * @property {string | null} text null where it is none
+ * @property {string} encoding
+ * @property {string} newline how all lines end; where they end in several ways, a letter for each
+ * @property {string} number of the program whose file it is; empty where it came to the page
+ * @property {string} [drawing]
+ * @property {Said} [why] what was to be open at the start could not be
+ */
+
+/**
+ * A drawing: its curves as they lie beneath the program, and what there is to say; else why not.
+ * @typedef {object} Looked
+ * @property {string} [unit]
+ * @property {Curves} [curves]
+ * @property {Said[]} told
+ * @property {Said | null} [why]
+ */
+
+/**
+ * How far the check of a folder is.
  * @typedef {object} Rows
+ * @property {Row[]} rows
  * @property {string} folder empty where none is open
  * @property {number} list another one once the folder was looked through again
  * @property {number} total
  * @property {number} left_out
  * @property {boolean} is_over
- * @property {Row[]} rows
+ */
+
+/**
+ * A program in a list.
+ * @typedef {object} Row
+ * @property {string} file
+ * @property {string} title
+ * @property {"pass" | "to-check" | "incomplete" | "fail" | "refused" | "fault"} verdict
+ * @property {Said | null} message why there is no program
+ * @property {FindingCount[]} findings the worst first
+ * @property {Record<string, Said>} titles of their codes
+ * @property {string} picture data of an SVG path
+ * @property {number | null} cut_um
+ * @property {[number, number, number, number] | null} box_um
+ * @property {string} [number] of a program of the folder
+ */
+
+/**
+ * How far a run is, or what more is made of it.
+ * @typedef {object} RunState
+ * @property {"pass" | "to-check" | "fail"} [verdict]
+ * @property {Said} [machine]
+ * @property {Finding[]} [findings] that the run itself made, beyond those of the check
+ * @property {Record<string, Explained>} [pages] of their codes
+ * @property {"idle" | "running" | "done" | "wrong" | "cancelled"} state
+ * @property {"run" | "film" | "pictures" | "drills" | "program"} [job]
+ * @property {number} [run]
+ * @property {string} [stage]
+ * @property {number} [at]
+ * @property {number} [of]
+ * @property {number} [share]
+ * @property {Said | null} [why]
+ * @property {MadeFile[]} [files] once it has ended well
  */
 
 /**
@@ -154,23 +186,7 @@
  * @property {number} bytes
  */
 
-/**
- * How far a run is, or what more is made of it (sim/serve/page/runs.py).
- * @typedef {object} RunState
- * @property {"idle" | "running" | "done" | "wrong" | "cancelled"} state
- * @property {"run" | "film" | "pictures" | "program"} [job]
- * @property {number} [run]
- * @property {string} [stage]
- * @property {number} [at]
- * @property {number} [of]
- * @property {number} [share]
- * @property {"pass" | "to-check" | "fail"} [verdict]
- * @property {Said} [machine]
- * @property {Said | null} [why]
- * @property {Finding[]} [findings] that the run itself made, beyond those of the check
- * @property {Record<string, Explained>} [pages] of their codes
- * @property {MadeFile[]} [files] once it has ended well
- */
+/** Up to here. */
 
 export const SEVERITIES = /** @type {const} */ (["error", "warning", "note"]);
 

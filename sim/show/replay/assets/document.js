@@ -7,8 +7,6 @@
 /** @typedef {Blocks["kind"][number]} Kind */
 /** @typedef {Loss["axis"]} Axis */
 /** @typedef {Pass["paint"]} PassPaint */
-/** @typedef {"center_x_um" | "center_y_um" | "radius_um" | "start_angle_rad" | "sweep_rad"} OfArcs */
-/** @typedef {Pick<Blocks, "kind" | "place_x_um" | "place_y_um" | OfArcs>} Curves What a path is drawn by. */
 
 /** Written by `make pages` from the model in Python. */
 
@@ -31,7 +29,7 @@
  * @property {Place[] | null} work_um
  * @property {Clamp[]} clamps
  * @property {boolean} has_jumps
- * @property {Drawn | null} drawing that the cut was held against, as it lies on the part
+ * @property {Curves | null} drawing that the cut was held against, as it lies on the part
  * @property {Blocks} blocks
  * @property {Decoding | null} decoding null where the dialect decodes no words, and of long programs
  * @property {Plan} plan
@@ -63,8 +61,9 @@
  */
 
 /**
- * Columns of n curves, each from the end of the one before it; `place_*` have n + 1.
- * @typedef {object} Drawn
+ * Columns of n curves, each from the end of the one before it; `place_*` have n + 1. What only an arc has is null
+ * elsewhere, where nothing asks for it.
+ * @typedef {object} Curves
  * @property {("line" | "arc" | "jump")[]} kind
  * @property {number[]} place_x_um
  * @property {number[]} place_y_um
@@ -77,8 +76,7 @@
  */
 
 /**
- * Columns of n blocks; `place_*`, `first_step` and `border_s` have n + 1. What only an arc has is null elsewhere,
- * where nothing asks for it.
+ * Columns of n blocks, as of curves; `first_step` and `border_s` have n + 1.
  * @typedef {object} Blocks
  * @property {("line" | "arc" | "jump")[]} kind
  * @property {number[]} place_x_um

@@ -1,4 +1,4 @@
-"""Model of ``drycut.index/1`` (docs/batch.md)."""
+"""Models of the index of a shop: ``drycut.index/1`` (docs/batch.md), and what its page is handed."""
 
 from typing import Annotated, Final, Literal, TypedDict
 
@@ -9,9 +9,11 @@ from parser.documents import (
     Judgement,
     Law,
     Ordinal,
+    SaidEntry,
     SeverityName,
     Size,
     Text,
+    of_length,
     one_of,
 )
 
@@ -79,3 +81,34 @@ INDEX: Final = Document(
         ),
     ),
 )
+
+VerdictName = Annotated[str, one_of("pass", "to-check", "incomplete", "fail", "refused", "fault")]
+"""Verdict of a program as people are told it; a check alone may be incomplete."""
+
+
+class ProgramEntry(TypedDict):
+    """A program as the page has it; what its run tells is null where there is none."""
+
+    file: str
+    title: str
+    title_zh: Annotated[str | None, "in Chinese, where that is another one"]
+    verdict: VerdictName
+    message: Annotated[SaidEntry | None, "why there is no report"]
+    findings: Annotated[list[FindingCountEntry], "the worst first"]
+    to_check: bool
+    time_s: float | None
+    time: Annotated[str, "in hours, minutes and seconds; empty where nothing ran"]
+    max_um: float | None
+    drawing_um: Annotated[float | None, "deviation from the drawing, where it was held against one"]
+    worst_um: Annotated[float | None, "that from the drawing, else that of the wire"]
+    folder: Annotated[str | None, "of its files, beside the page"]
+    from_cache: bool
+    picture: Annotated[str, "data of an SVG path"]
+
+
+class IndexEntry(TypedDict):
+    """All of a shop."""
+
+    programs: list[ProgramEntry]
+    titles: Annotated[dict[str, SaidEntry], "of the codes that occur"]
+    box: Annotated[list[int], of_length(2, 2), "width and height of the pictures"]
