@@ -10,10 +10,13 @@ from sim.cli.options import (
     Offsets,
     OrRegister,
     offsets_of,
+    taken_settings,
     with_dialect,
+    with_settings,
 )
 from sim.cli.spoken import Spoken, spoken, words
 from sim.cli.spoken.values import FilePath
+from sim.setup.part import DRAWING
 
 if TYPE_CHECKING:
     from parser.dialect.reader import ChosenDialect
@@ -30,19 +33,16 @@ if TYPE_CHECKING:
     multiple=True,
 )
 @with_dialect
-@click.option("--tolerance", type=Length())
-@click.option("--layer", metavar="NAME")
-@click.option("--gap", type=Length())
-@click.option("--no-fit", is_flag=True)
-@click.option("--sharp-corners", type=click.Choice(["tell", "fail"]))
+@with_settings(DRAWING.keys)
 @click.option("--json", "as_json", is_flag=True)
-def compare(
+def compare(  # noqa: PLR0913 - click hands over each option by its name
     *,
     path: Path,
     offset: tuple[Any, ...],
     dialect: "ChosenDialect | None",
     unit: str | None,
     as_json: bool,
+    drawing: Path | None,
     **options: Any,
 ) -> None:
     """Compare the edge that a program cuts with a drawing (DXF).
@@ -53,7 +53,7 @@ def compare(
     drycut compare scenarios/punch
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     from parser.drawing.read import read_drawing
-    from sim.cli.scenario_options import OfDrawing, drawing_target, read_with
+    from sim.cli.scenario_options import drawing_target, of_options, read_with
     from sim.measure.compare.compare import compare_program
     from sim.measure.compare.result import FitRequest
     from sim.run.report.drawing import document_text
@@ -63,13 +63,14 @@ def compare(
 
     given = _checked(offsets_of(offset))
     scenario = read_with(load_scenario(path), dialect, unit, given.registers)
-    drawing = drawing_target(scenario.drawing, OfDrawing(**options))
-    if drawing is None:
+    settings = of_options(DRAWING.keys, taken_settings(DRAWING.keys, options))
+    target = drawing_target(scenario.drawing, drawing, settings)
+    if target is None:
         raise click.MissingParameter(param_hint="DRAWING.dxf", param_type="argument")
     program = _program(scenario)
     offset_um, source = _offset(given.plain, program, scenario)
-    drawn = read_drawing(drawing.file, layer=drawing.layer, gap_um=drawing.gap_um)
-    request = FitRequest(drawing.tolerance_um, drawing.fit, drawing.sharp_corners)
+    drawn = read_drawing(target.file, layer=target.layer, gap_um=target.gap_um)
+    request = FitRequest(target.tolerance_um, target.fit, target.sharp_corners)
     done = compare_program(program.toolpath, offset_um, drawn, request)
     if as_json:
         write(document_text(done), "json")

@@ -7,12 +7,21 @@ Options that say what an ISO program is read with: dialect, unit, values of offs
 
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
-from typing import Any, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeVar
 
 import click
 
 from parser.findings.errors import Message, SettingsError
+from sim.cli.spoken.values import WholeNumber
 from sim.setup.toml.keys import Key
+from sim.setup.toml.kinds import Lengths as OfLengths
+from sim.setup.toml.kinds import Name, Number, OneOf, Places, Text, Truth, ValueKind, Whole, Wholes
+
+if TYPE_CHECKING:
+    from parser.toolpath import Point
+
+
+Command = TypeVar("Command", bound=Callable[..., Any])
 
 
 class Length(click.ParamType):  # type: ignore[type-arg]  # generic in newer clicks alone
@@ -44,9 +53,88 @@ class Lengths(click.ParamType):  # type: ignore[type-arg]  # generic in newer cl
         return tuple(parse_length(length) for length in lengths)
 
 
-def length_options(keys: Iterable[Key]) -> tuple[Any, ...]:
-    """An option for each key that has one, in their order."""
-    return tuple(click.option(key.option, type=Length()) for key in keys if key.option)
+class Place(click.ParamType):  # type: ignore[type-arg]  # generic in newer clicks alone
+    """``X,Y`` of the drawing: numbers in mm, or lengths with their units."""
+
+    name = "X,Y"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> "Point":
+        """The place in µm. SettingsError for lengths without end, bad use for what is no pair."""
+        from parser.toolpath import Point
+        from parser.units import mm
+        from sim.setup.toml.reader import PLACE_MM, number
+
+        if isinstance(value, Point):
+            return value
+        parts = value.split(",")
+        if len(parts) != 2:
+            self.fail(Message("no-place", found=value), param, ctx)
+        x, y = map(length_um, parts)
+        for each in (x, y):
+            number(mm(each), PLACE_MM, "--start in mm")
+        return Point(x, y)
+
+
+class Numbers(click.ParamType):  # type: ignore[type-arg]  # generic in newer clicks alone
+    """Whole numbers with commas between them."""
+
+    name = "3,1,2"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[int, ...]:
+        """The numbers, each once and from 1."""
+        if isinstance(value, tuple):
+            return value
+        parts = [part.strip() for part in value.split(",")]
+        if not all(part.isascii() and part.isdigit() and len(part) < 8 and int(part) for part in parts):
+            self.fail(Message("no-figure-numbers", found=value), param, ctx)
+        numbers = tuple(map(int, parts))
+        if len(set(numbers)) < len(numbers):
+            self.fail(Message("figure-named-twice", found=value), param, ctx)
+        return numbers
+
+
+def length_um(text: str) -> float:
+    """A length with its unit, or a number in mm, in µm."""
+    from sim.base.units import parse_length
+
+    text = text.strip()
+    return parse_length(text if not text or text[-1].isalpha() else f"{text}mm")
+
+
+def setting_options(keys: Iterable[Key]) -> tuple[Any, ...]:
+    """An option for each key that has one, in their order; what it takes is of the kind of the key's values."""
+    return tuple(click.option(key.option, **_taking(key.kind)) for key in keys if key.option)
+
+
+def _taking(kind: ValueKind) -> dict[str, Any]:
+    """What click is to know of an option whose values are of a kind; of lists each entry is given one by one."""
+    if isinstance(kind, OneOf):
+        return {"type": click.Choice(kind.words)}
+    if isinstance(kind, Whole):
+        return {"type": WholeNumber(int(kind.bound.low), int(kind.bound.high))}
+    return _TAKING[type(kind)]
+
+
+_TAKING: Final[Mapping[type[ValueKind], dict[str, Any]]] = {
+    Truth: {"is_flag": True},
+    Number: {"type": Length()},
+    OfLengths: {"type": Length(), "multiple": True},
+    Places: {"type": Place(), "multiple": True},
+    Wholes: {"type": Numbers()},
+    Name: {"metavar": "WORD"},
+    Text: {"metavar": "NAME"},
+}
+
+
+def with_settings(keys: Iterable[Key]) -> Callable[[Command], Command]:
+    """Give a command the options of keys."""
+
+    def offering(command: Command) -> Command:
+        for option in reversed(setting_options(keys)):
+            command = option(command)
+        return command
+
+    return offering
 
 
 def parameter(key: Key) -> str:
@@ -54,13 +142,15 @@ def parameter(key: Key) -> str:
     return key.option.lstrip("-").replace("-", "_")
 
 
-def taken_lengths(keys: Iterable[Key], options: dict[str, Any]) -> Mapping[str, float]:
-    """Lengths in µm that options give for keys, by the names of the keys; they are taken out of the options."""
-    lengths = {key.name: options.pop(parameter(key)) for key in keys if key.option}
-    return {name: length for name, length in lengths.items() if length is not None}
+def taken_settings(keys: Iterable[Key], options: dict[str, Any]) -> Mapping[str, Any]:
+    """What options give for keys, by the names of the keys, lengths in µm; they are taken out of the options.
 
+    Options that are left out give nothing. A flag gives the other truth than the usual one.
+    """
+    values = {key: options.pop(parameter(key)) for key in keys if key.option}
+    given = {key: value for key, value in values.items() if value is not None and value is not False and value != ()}
+    return {key.name: not key.default if isinstance(key.kind, Truth) else value for key, value in given.items()}
 
-Command = TypeVar("Command", bound=Callable[..., Any])
 
 _DIALECTS = "fast-wire, classroom, skd2, robofil, sodick, mitsubishi, fanuc, patent-mill, common, strict"
 

@@ -133,7 +133,7 @@ def _scenario(path: Path, output: Path | None, options: Options) -> "Scenario":
     """The scenario of a folder, else one of the defaults, with the options in place of its own values."""
     from sim.cli.scenario_options import Overrides, overridden
 
-    given = Overrides(dialect=options.dialect, unit=options.unit, machine=options.machine, lengths=options.lengths)
+    given = Overrides(dialect=options.dialect, unit=options.unit, machine=options.machine, settings=options.proof)
     return overridden(path if path.is_dir() else (output or path.with_suffix(".3b")), given)
 
 

@@ -5,20 +5,22 @@ Options of the commands that run a scenario, and what they say where its program
 Options of ``drycut run`` that take the place of a scenario's own values.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeVar
 
 import click
 
 from parser.findings.errors import ProgramError, SettingsError
 from parser.units import mm
-from sim.cli.options import READ_WITH, Length, Lengths, OrRegister, length_options, offsets_of, taken_lengths
+from sim.cli.options import READ_WITH, Lengths, OrRegister, offsets_of, setting_options, taken_settings
 from sim.cli.spoken import spoken, words
 from sim.cli.spoken.values import FilePath, offer_machines
+from sim.setup.part import CORNERS, FIT, LAYER, SIDE, TOLERANCE
 from sim.setup.settable import SETTABLE
+from sim.setup.toml.keys import Key
 from sim.setup.toml.reader import number
 from sim.show.terminal.finding import finding_lines
 from sim.show.terminal.printer import painted, say
@@ -29,7 +31,7 @@ if TYPE_CHECKING:
     from parser.dialect.reader import ChosenDialect
     from sim.cli.options import RegisterSet
     from sim.setup.machine.machine import TableEngine
-    from sim.setup.part import DrawingTarget, Offset, SharpCorners
+    from sim.setup.part import DrawingTarget, Offset
     from sim.setup.scenario import Scenario
 
 
@@ -41,10 +43,12 @@ ENGINE_OPTION = click.option(
     type=click.Choice(["compiled", "pymunk"]),
 )
 
+HOLDING: Final = (LAYER, TOLERANCE, FIT, CORNERS)
+"""How a cut is held against a drawing; ``--gap`` is the spark gap of a run."""
 _OPTIONS = (
     *READ_WITH,
     click.option("--machine", metavar="NAME|FILE", shell_complete=offer_machines),
-    *length_options(SETTABLE.values()),
+    *setting_options(SETTABLE.values()),
     click.option(
         "--interpolator",
         type=click.Choice(["point-by-point", "card"]),
@@ -54,10 +58,7 @@ _OPTIONS = (
         type=OrRegister(Lengths()),
         multiple=True,
     ),
-    click.option(
-        "--side",
-        type=click.Choice(["left", "right"]),
-    ),
+    *setting_options([SIDE]),
     ENGINE_OPTION,
     click.option("--past-stop", is_flag=True),
     click.option("--kerf", is_flag=True),
@@ -67,10 +68,7 @@ _OPTIONS = (
         type=FilePath(path_type=Path, dir_okay=False),
         metavar="DXF",
     ),
-    click.option("--layer", metavar="NAME"),
-    click.option("--tolerance", type=Length()),
-    click.option("--no-fit", is_flag=True),
-    click.option("--sharp-corners", type=click.Choice(["tell", "fail"])),
+    *setting_options(HOLDING),
 )
 
 
@@ -99,14 +97,14 @@ def describe(name: str, error: ProgramError) -> list[str]:
 class Overrides(NamedTuple):
     """The options as given, lengths in µm; None where an option was left out.
 
-    `lengths` has those that take the place of settings, by the names of their keys (`sim.setup.settable`); `offset` has
-    the offset of the controller, and registers that ISO programs name.
+    `settings` has those that take the place of settings, by the names of their keys (`sim.setup.settable`), `holding`
+    likewise those of `HOLDING`; `offset` has the offset of the controller, and registers that ISO programs name.
     """
 
     dialect: "ChosenDialect | None" = None
     unit: str | None = None
     machine: str | None = None
-    lengths: Mapping[str, float] = MappingProxyType({})
+    settings: Mapping[str, Any] = MappingProxyType({})
     interpolator: str | None = None
     engine: "TableEngine | None" = None
     offset: tuple["tuple[float, ...] | RegisterSet", ...] = ()
@@ -115,17 +113,15 @@ class Overrides(NamedTuple):
     kerf: bool = False
     may_stay_open: bool = False
     drawing: Path | None = None
-    layer: str | None = None
-    tolerance: float | None = None
-    no_fit: bool = False
-    sharp_corners: "SharpCorners | None" = None
+    holding: Mapping[str, Any] = MappingProxyType({})
 
 
 def overrides_of(options: dict[str, Any]) -> Overrides:
     """The options as click hands them over."""
     from sim.setup.settable import SETTABLE
 
-    return Overrides(lengths=taken_lengths(SETTABLE.values(), options), **options)
+    settings = taken_settings(SETTABLE.values(), options)
+    return Overrides(settings=settings, holding=taken_settings(HOLDING, options), **options)
 
 
 def overridden(path: Path, options: Overrides) -> "Scenario":
@@ -140,9 +136,7 @@ def overridden(path: Path, options: Overrides) -> "Scenario":
         scenario = replace(scenario, machine=load_machine(options.machine), machine_by_default=False)
     if options.engine is not None:
         scenario = replace(scenario, machine=scenario.machine._replace(engine=options.engine))
-    given = {
-        key.name: key.of_option(options.lengths[key.name]) for key in SETTABLE.values() if key.name in options.lengths
-    }
+    given = of_options(SETTABLE.values(), options.settings)
     scenario = replace(
         with_settings(scenario, given),
         offset=_offset(scenario.offset, offsets.plain, options.side),
@@ -191,47 +185,31 @@ def _offset(offset: "Offset | None", by_um: tuple[float, ...] | None, side_word:
     return Offset(passes, side)
 
 
-class OfDrawing(NamedTuple):
-    """Options that say which drawing a cut is held against, and how; lengths in µm, None where left out."""
-
-    drawing: Path | None
-    layer: str | None
-    tolerance: float | None
-    no_fit: bool
-    sharp_corners: "SharpCorners | None"
-    gap: float | None = None
+def of_options(keys: Iterable[Key], settings: Mapping[str, Any]) -> dict[str, Any]:
+    """Values of options as they are inside, by the names of their keys. SettingsError for one out of its bounds."""
+    return {key.name: key.of_option(settings[key.name]) for key in keys if key.name in settings}
 
 
-def drawing_target(own: "DrawingTarget | None", options: OfDrawing) -> "DrawingTarget | None":
-    """The drawing with the options in place of a scenario's own values; None without a drawing.
+def drawing_target(
+    own: "DrawingTarget | None", drawing: Path | None, settings: Mapping[str, Any]
+) -> "DrawingTarget | None":
+    """The drawing with options in place of a scenario's own values; None without a drawing.
 
-    SettingsError for values out of their bounds.
+    `settings` are by the names of the keys of ``[drawing]``, as they are inside.
     """
-    from sim.setup.part import GAP, TOLERANCE, DrawingTarget
+    from sim.setup.part import DrawingTarget
 
-    if options.drawing is not None:
-        own = own._replace(file=options.drawing) if own is not None else DrawingTarget(options.drawing)
-    if own is None:
-        return None
-    if options.layer is not None:
-        own = own._replace(layer=options.layer)
-    if options.tolerance is not None:
-        own = own._replace(tolerance_um=TOLERANCE.of_option(options.tolerance))
-    if options.gap is not None:
-        own = own._replace(gap_um=GAP.of_option(options.gap))
-    if options.sharp_corners is not None:
-        own = own._replace(sharp_corners=options.sharp_corners)
-    return own._replace(fit=own.fit and not options.no_fit)
+    if drawing is not None:
+        own = own._replace(file=drawing) if own is not None else DrawingTarget(drawing)
+    return None if own is None else own._replace(**settings)
 
 
 def _drawing(own: "DrawingTarget | None", options: Overrides) -> "DrawingTarget | None":
     """The drawing of a run. SettingsError where the options say how to hold it but not which."""
-    of = OfDrawing(options.drawing, options.layer, options.tolerance, options.no_fit, options.sharp_corners)
-    drawing = drawing_target(own, of)
-    settings = {"layer": of.layer, "tolerance": of.tolerance, "no-fit": of.no_fit, "sharp-corners": of.sharp_corners}
-    for name, given in settings.items():
-        if drawing is None and given not in (None, False):
-            raise SettingsError("option-needs-drawing", option=name)
+    drawing = drawing_target(own, options.drawing, of_options(HOLDING, options.holding))
+    for key in HOLDING:
+        if drawing is None and key.name in options.holding:
+            raise SettingsError("option-needs-drawing", option=key.option.lstrip("-"))
     return drawing
 
 

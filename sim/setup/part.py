@@ -140,11 +140,12 @@ class _SideWord(OneOf):
 
 
 _BY_MM = Number(OFFSET_MM, "mm", MM_AS_UM)
+SIDE = Key("side", _SideWord(tuple(SIDES)), option="--side")
 OFFSET = Section(
     "offset",
     (
         Key("by_mm", _BY_MM, "by_um", default=None, get=lambda offset: offset.by_um if offset.is_plain else None),
-        Key("side", _SideWord(tuple(SIDES))),
+        SIDE,
     ),
     fills="offset",
 )
@@ -161,15 +162,20 @@ PASS = Section(
 )
 TOLERANCE = Key("tolerance_um", Number(TOLERANCE_UM, "µm"), default=DEFAULT_TOLERANCE_UM, option="--tolerance")
 GAP = Key("gap_um", Number(GAP_UM, "µm"), default=DEFAULT_GAP_UM, option="--gap")
+LAYER = Key(
+    "layer", Text(), default=None, get=lambda drawing: drawing.layer and printable(drawing.layer), option="--layer"
+)
+FIT = Key("fit", Truth(), default=True, option="--no-fit")
+CORNERS = Key("sharp_corners", OneOf(SHARP_CORNERS), default="tell", option="--sharp-corners")
 DRAWING = Section(
     "drawing",
     (
         Key("file", FileName()),
-        Key("layer", Text(), default=None, get=lambda drawing: drawing.layer and printable(drawing.layer)),
+        LAYER,
         TOLERANCE,
         GAP,
-        Key("fit", Truth(), default=True),
-        Key("sharp_corners", OneOf(SHARP_CORNERS), default="tell"),
+        FIT,
+        CORNERS,
     ),
     fills="drawing",
 )

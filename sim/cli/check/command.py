@@ -9,7 +9,7 @@ import click
 from parser.findings.errors import Message
 from sim.check.settings.read import FAIL_ON
 from sim.cli.check.outputs import Output
-from sim.cli.options import UNIT, OwnOrNamed, RegisterValue, length_options
+from sim.cli.options import UNIT, OwnOrNamed, RegisterValue, setting_options
 from sim.cli.spoken import Spoken, spoken
 from sim.cli.spoken.values import FilePath, offer_files, offer_machines
 from sim.cli.spread import Spread, pool_of, spread_options
@@ -89,7 +89,7 @@ _MENDS = (
 _WATCH = (click.option("--watch", is_flag=True),)
 _DEMANDS = (
     click.option("--machine", metavar="NAME|FILE", shell_complete=offer_machines),
-    *length_options((DIAMETER, SPARK_GAP)),
+    *setting_options((DIAMETER, SPARK_GAP)),
     click.option("--open", "may_stay_open", is_flag=True),
 )
 _ISO = (

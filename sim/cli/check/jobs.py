@@ -36,7 +36,7 @@ from sim.check.settings.read import (
     pattern_list,
 )
 from sim.check.settings.search import SettingsSearch
-from sim.cli.options import taken_lengths
+from sim.cli.options import taken_settings
 from sim.setup.dialect import chosen_dialect
 from sim.show.terminal.printer import say
 from sim.show.texts import Words
@@ -85,7 +85,7 @@ NO_OPTIONS: Final = CheckOptions(
 
 def check_options_of(values: dict[str, Any]) -> CheckOptions:
     """The options as click hands them over."""
-    return CheckOptions(lengths=taken_lengths(WIRE_LENGTHS.values(), values), **values)
+    return CheckOptions(lengths=taken_settings(WIRE_LENGTHS.values(), values), **values)
 
 
 class Jobs(NamedTuple):

@@ -63,12 +63,13 @@ class Key:
             return self.kind.inside(self.kind.checked(table, self.name, where))
         return None if self.default is None else self.kind.inside(self.default)
 
-    def of_option(self, length_um: float) -> float:
-        """A length that `option` gives, as it is inside. SettingsError, which names the option, where it cannot be."""
-        assert isinstance(self.kind, Number)  # noqa: S101 - no other kind is given by a length
-        written = mm(length_um) if self.kind.unit == "mm" else length_um
+    def of_option(self, value: Any) -> Any:
+        """What `option` gives, lengths in µm, as it is inside. SettingsError for a number out of bounds."""
+        if not isinstance(self.kind, Number):
+            return value
+        written = mm(value) if self.kind.unit == "mm" else value
         number(written, self.kind.bound, f"{self.option} in {self.kind.unit}")
-        return length_um if self.kind.scale is MM_AS_UM else written
+        return value if self.kind.scale is MM_AS_UM else written
 
     def written(self, owner: object) -> Any:
         """Value in the file that makes this owner; None where it says nothing, as of a limit that there is not."""

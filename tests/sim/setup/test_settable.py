@@ -1,24 +1,29 @@
 """Settings that options and fields of a page give: each row of a key is the same at every door."""
 
 import operator
+import tomllib
 from pathlib import Path
 
+import click
 import pytest
 from command import run_inside
 
 from parser.findings.errors import SettingsError
 from sim.cli.options import parameter
-from sim.cli.scenario_options import overridden, overrides_of
+from sim.cli.program_options import making_of, options_of, program_options, writing_of
+from sim.cli.scenario_options import HOLDING, overridden, overrides_of
 from sim.serve.page.form import scenario_of
 from sim.serve.page.runs import KEYS
+from sim.setup import making
 from sim.setup.key_tables import scenario_schema
+from sim.setup.making import Making, ToMake, Writing
 from sim.setup.settable import FIELDS, SETTABLE
 from sim.setup.toml.keys import Key
 from sim.setup.toml.kinds import Number
 from sim.show.open_page.page import open_page
 
 ROWS = pytest.mark.parametrize("path", SETTABLE)
-NOTHING = {parameter(key): None for key in SETTABLE.values()}
+NOTHING = {parameter(key): None for key in (*SETTABLE.values(), *HOLDING)}
 PROGRAM = Path("part.3b")
 
 
@@ -88,3 +93,47 @@ def test_dependent_values_are_taken_all_at_once(tmp_path: Path) -> None:
     (tmp_path / "scenario.toml").write_text(text, "utf-8")
     scenario = overridden(tmp_path, overrides_of({**NOTHING, "thickness": 2e6, "wire_lag": 0.0}))
     assert (scenario.thickness_mm, scenario.wire_lag_um) == (2000.0, 0.0)
+
+
+# Of each option of ``drycut program``: what is typed, and what its key of ``[program]`` says for the same.
+TYPED: dict[str, tuple[list[str], str]] = {
+    "tolerance_um": (["4um"], "4.0"),
+    "passes_mm": (["0.18mm", "120um"], "[0.18, 0.12]"),
+    "side": (["outside"], "'outside'"),
+    "direction": (["cw"], "'cw'"),
+    "order": (["3,1,2"], "[3, 1, 2]"),
+    "starts_mm": (["1,2", "3mm,-4mm"], "[[1.0, 2.0], [3.0, -4.0]]"),
+    "thread_layer": (["HOLES"], "'HOLES'"),
+    "lead": (["arc"], "'arc'"),
+    "lead_mm": (["2mm"], "2.0"),
+    "overcut_mm": (["500um"], "0.5"),
+    "tab_mm": (["3mm"], "3.0"),
+    "corners": (["round"], "'round'"),
+    "form": (["aligned"], "'aligned'"),
+    "end_code": (["MJ"], "'MJ'"),
+    "pause_code": (["DP"], "'DP'"),
+    "crlf": ([], "true"),
+    "encoding": (["gbk"], "'gbk'"),
+    "compensation": (["kept"], "'kept'"),
+    "decimals": (["3"], "3"),
+}
+OFFERED = {key.name: key for key in making.PROGRAM.keys if key.option}
+
+
+def test_each_key_of_a_program_with_an_option_is_tried() -> None:
+    assert list(OFFERED) == list(TYPED)
+    assert len(OFFERED) >= len(making.PROGRAM.keys) - 2  # but for the file, and the way of passes
+
+
+@pytest.mark.parametrize("name", TYPED)
+def test_an_option_of_a_program_says_what_its_key_says(name: str) -> None:
+    typed, written = TYPED[name]
+    key = OFFERED[name]
+    line = [word for value in typed for word in (key.option, value)] or [key.option]
+    command = program_options(click.Command("program", callback=lambda **_: None))
+    options = options_of(command.make_context("program", line).params)
+    asked = ToMake()._replace(making=making_of(Making(), options), writing=writing_of(Writing(), options))
+    read = making.PROGRAM.read_in(tomllib.loads(f"[program]\n{name} = {written}\n"), "scenario.toml")
+    assert asked.making == Making(**read["making"])
+    assert asked.writing == Writing(**read["writing"])
+    assert (asked.making, asked.writing) != (Making(), Writing())
