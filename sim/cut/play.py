@@ -7,7 +7,7 @@ form, for a shift and for a turn. A physics engine would let them overlap a litt
 """
 
 import math
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
 import shapely
@@ -18,7 +18,7 @@ from controller.compiled.loops import compiled
 from parser.geometry.curves import Floats, Ints
 from parser.toolpath import Point
 from sim.cut.pieces.pieces import Piece, Pieces
-from sim.cut.walls import SIMPLER_UM, Walls, room_of, walls_of
+from sim.cut.walls import SIMPLER_UM, Room, Walls, room_of, walls_of
 
 
 class Sides(NamedTuple):
@@ -143,10 +143,10 @@ def _round(corner: Floats, start: Floats, by: Floats, sense: float) -> tuple[flo
     return least, first
 
 
-_DIRECTIONS = 16
+_TOWARD_DEG: Final = np.linspace(0.0, 360.0, 16, endpoint=False)
 _CORNERS = 1000  # an outline with more is simplified by twice as much, and so on
 _COARSEST_UM = 8.0
-_NEAR_UM = 1000.0  # walls are looked at in a box so much larger than the piece, then farther
+_NEAR_UM = 1000.0  # walls are looked at in a box so much larger than the piece, then farther on its ways
 _FARTHER = 4.0  # times
 
 
@@ -216,19 +216,40 @@ def plays_of(pieces: Pieces, wire_radius_um: float) -> tuple[Play, ...]:
 
 
 def _play(walls: Walls, piece: Piece, wire_radius_um: float) -> Play:
-    """Play of one piece: between the walls near it, where it meets them there; else between those farther off.
+    """Play of one piece: between the walls near it, and as far as it meets none of these, between those on its way.
 
     No corner leaves its circle about the centre of gravity in a turn, and the room holds all of them.
     """
     outline, wire = shapely.Polygon(piece.outline_um.exterior), piece.freed.wire_um
-    room, far_um = room_of(walls, outline, wire, piece.freed.t_s), _NEAR_UM
+    room = room_of(walls, outline, wire, piece.freed.t_s)
+    scene, far_um = _scene_near(room, outline, wire)
+    shifts, exact_to_um = _shifts(scene, _TOWARD_DEG), scene.exact_to_um
+    while math.isfinite(far_um):
+        free = [at for at, shift in enumerate(shifts) if shift.by_um + exact_to_um >= far_um]
+        if not free:
+            break
+        far_um *= _FARTHER
+        ahead, is_all = room.ahead(_TOWARD_DEG[free], far_um)
+        farther = scene.between(*_coarse(ahead, SIMPLER_UM))
+        exact_to_um = max(exact_to_um, farther.exact_to_um)
+        found = dict(zip(free, _shifts(farther, _TOWARD_DEG[free]), strict=True))
+        shifts = tuple(found.get(at, shift) for at, shift in enumerate(shifts))
+        far_um = math.inf if is_all else far_um
+    return _play_of(scene, shifts, exact_to_um, wire, wire_radius_um)
+
+
+def _scene_near(room: Room, outline: shapely.Polygon, wire_um: Point) -> tuple["_Scene", float]:
+    """A piece between the walls near it, among which is the one nearest to the wire; how far off they are looked for.
+
+    That is infinite where there are no others.
+    """
+    edge, far_um = _coarse(outline.exterior), _NEAR_UM
     while True:
         near, is_all = room.within(far_um)
         if is_all or not near.is_empty:
-            play = play_between(outline, near, wire, wire_radius_um, walls_to_um=SIMPLER_UM)
-            met_um = max(math.dist(wire, play.pinch.wall_um), *(shift.by_um for shift in play.shifts))
-            if is_all or met_um + play.exact_to_um < far_um:
-                return play
+            scene = _scene_of(edge, _coarse(near, SIMPLER_UM), outline)
+            if is_all or shapely.distance(scene.walls, shapely.Point(wire_um)) + scene.exact_to_um < far_um:
+                return scene, math.inf if is_all else far_um
         far_um *= _FARTHER
 
 
@@ -239,31 +260,57 @@ def play_between(
 
     The walls are lines, which lie within `walls_to_um` of the real ones.
     """
-    (edge, from_edge), (walls, from_walls) = _coarse(outline_um.exterior), _coarse(walls_um, walls_to_um)
-    center = np.array(outline_um.centroid.coords[0])
-    scene = _Scene(edge, sides_of(edge), walls, sides_of(walls), center)
-    shifts = _shifts(scene, np.linspace(0.0, 360.0, _DIRECTIONS, endpoint=False))
+    scene = _scene_of(_coarse(outline_um.exterior), _coarse(walls_um, walls_to_um), outline_um)
+    return _play_of(scene, _shifts(scene, _TOWARD_DEG), scene.exact_to_um, wire_um, wire_radius_um)
+
+
+def _play_of(
+    scene: "_Scene", shifts: tuple[Shift, ...], exact_to_um: float, wire_um: Point, wire_radius_um: float
+) -> Play:
     turns = _turn(scene, 1), _turn(scene, -1)
-    return Play(shifts, turns, _pinch(scene, wire_um, wire_radius_um, shifts, turns), from_edge + from_walls)
+    return Play(shifts, turns, _pinch(scene, wire_um, wire_radius_um, shifts, turns), exact_to_um)
+
+
+class _Coarse(NamedTuple):
+    """Lines with fewer corners, and how far they are from the real ones, µm."""
+
+    lines_um: BaseGeometry
+    exact_to_um: float
 
 
 class _Scene(NamedTuple):
-    """The piece's edge and the walls, as lines and as their sides; the centre of gravity that the piece turns about."""
+    """The piece's edge and the walls, as lines and as their sides; the centre of gravity that the piece turns about.
 
-    edge: BaseGeometry
+    Edge and walls together lie within `exact_to_um` of the real ones.
+    """
+
+    edge: _Coarse
     moving: Sides
     walls: BaseGeometry
     standing: Sides
     about_um: Floats
+    exact_to_um: float
+
+    def between(self, walls_um: BaseGeometry, exact_to_um: float) -> "_Scene":
+        """The same piece between other walls."""
+        return self._replace(
+            walls=walls_um, standing=sides_of(walls_um), exact_to_um=self.edge.exact_to_um + exact_to_um
+        )
 
 
-def _coarse(lines_um: BaseGeometry, exact_to_um: float = 0.0) -> tuple[BaseGeometry, float]:
-    """Lines with fewer corners, and how far they are from the real ones."""
+def _scene_of(edge: _Coarse, walls: _Coarse, outline_um: shapely.Polygon) -> _Scene:
+    center = np.array(outline_um.centroid.coords[0])
+    exact_to_um = edge.exact_to_um + walls.exact_to_um
+    return _Scene(edge, sides_of(edge.lines_um), walls.lines_um, sides_of(walls.lines_um), center, exact_to_um)
+
+
+def _coarse(lines_um: BaseGeometry, exact_to_um: float = 0.0) -> _Coarse:
+    """Lines, which lie so far from the real ones, with fewer corners."""
     tolerance, lines = SIMPLER_UM, _simplified(lines_um, SIMPLER_UM - exact_to_um)
     while shapely.get_num_coordinates(lines) > _CORNERS and tolerance < _COARSEST_UM:
         tolerance *= 2.0
         lines = _simplified(lines_um, tolerance - exact_to_um)
-    return lines, tolerance
+    return _Coarse(lines, tolerance)
 
 
 def _simplified(lines_um: BaseGeometry, by_um: float) -> BaseGeometry:
@@ -289,12 +336,12 @@ def _pinch(
 ) -> Pinch:
     wall = ops.nearest_points(shapely.Point(wire_um), scene.walls)[1]
     wall_um = np.array([wall.x, wall.y])
-    nearest = ops.nearest_points(wall, scene.edge)[1]
+    nearest = ops.nearest_points(wall, scene.edge.lines_um)[1]
     straight = _shifts(scene, np.array([math.degrees(math.atan2(wall.y - nearest.y, wall.x - nearest.x))]))
     seen = [_seen_after_shift(wall_um, shift) for shift in (*shifts, *straight) if np.isfinite(shift.by_um)]
     seen += [_seen_after_turn(wall_um, turn, scene.about_um) for turn in turns if np.isfinite(turn.by_deg)]
-    width = scene.edge.distance(wall)
-    narrowest = float(shapely.distance(scene.edge, shapely.points([wall_um, *seen])).min())
+    width = scene.edge.lines_um.distance(wall)
+    narrowest = float(shapely.distance(scene.edge.lines_um, shapely.points([wall_um, *seen])).min())
     return Pinch(
         wall_um=Point(wall.x, wall.y),
         width_um=width,

@@ -75,17 +75,32 @@ class Room(NamedTuple):
         """Walls as far as this from the piece and the wire, as lines, and whether there are no others."""
         (low, high), (turning_low, turning_high) = self.boxes_um
         low, high = np.minimum(low - far_um, turning_low), np.maximum(high + far_um, turning_high)
-        box = shapely.box(*low, *high)
-        rings, corner = self.walls.rings.geometries, self.walls.corner_um
-        if self.opening is None:
-            lowest, highest = corner.min(axis=0), corner.max(axis=0)
-        else:
-            lowest, highest = np.split(shapely.bounds(rings[self.opening]), 2)
+        lowest, highest = self._bounds_um()
         is_all = bool((low <= lowest).all() and (high >= highest).all())
-        return self._lines(np.sort(self.walls.run_boxes.query(box))), is_all
+        return self._lines(self.walls.run_boxes.query(shapely.box(*low, *high))), is_all
+
+    def ahead(self, toward_deg: Floats, far_um: float) -> tuple[BaseGeometry, bool]:
+        """Walls on the way of the piece as it shifts so far in some directions (d,); whether none lies farther."""
+        angle = np.radians(toward_deg)
+        by_um = far_um * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+        corner = shapely.get_coordinates(self.outline_um.convex_hull)
+        swept = np.stack([np.broadcast_to(corner, (len(by_um), *corner.shape)), corner + by_um[:, None]], axis=1)
+        ways = shapely.convex_hull(shapely.multipoints(swept.reshape(len(by_um), -1, 2)))
+        near = np.unique(self.walls.run_boxes.query(ways, predicate="intersects")[1])
+        (lowest, highest), low, high = self._bounds_um(), corner.min(axis=0), corner.max(axis=0)
+        farthest_um = np.hypot(*(np.maximum(high, highest) - np.minimum(low, lowest)))
+        return self._lines(near), bool(far_um >= farthest_um)
+
+    def _bounds_um(self) -> Floats:
+        """Lowest and highest (x, y) of all walls."""
+        if self.opening is None:
+            return np.stack([self.walls.corner_um.min(axis=0), self.walls.corner_um.max(axis=0)])
+        bounds: Floats = shapely.bounds(self.walls.rings.geometries[self.opening]).reshape(2, 2)
+        return bounds
 
     def _lines(self, near: Ints) -> BaseGeometry:
         """The walls among some runs; runs that follow each other make one line."""
+        near = np.sort(near)
         rings, of = np.unique(self.walls.runs[near, 0], return_inverse=True)
         ring, first, last = self.walls.runs[near[self._are_walls(rings)[of]]].T
         begins = np.append(True, (first[1:] != last[:-1]) | (ring[1:] != ring[:-1]))[: len(ring)]

@@ -29,6 +29,7 @@ from sim.table.trace import Trace
 _STRETCH = 1.9  # offsets, at most; at 2 the discs at its ends would only just reach its middle
 _BAND = 32.0  # offsets, at most: what lies round a box is cut out of no longer ones
 _TURN_RAD = 0.5  # of a stretch, at most
+_REMADE = 4096  # regions of stretches that are there to be looked at again: some 20 MB
 _KEPT = 3  # of as many levels one is kept: all of them take twice the memory
 
 
@@ -54,6 +55,10 @@ class Swept(NamedTuple):
         stretches are made again where they are looked at: all of them take most of the memory of a run.
     boxes
         (…, 4) float64 of the stretches, and of each level: lowest x and y, highest x and y of its regions.
+    chord_um
+        (s, 2, 2) float64, from the first place of each stretch to its last one.
+    off_um
+        (s,) float64, how far places of a stretch lie off its chord at most.
     """
 
     way: WireWay
@@ -62,6 +67,8 @@ class Swept(NamedTuple):
     offset_um: float
     joined: tuple[Regions, ...]
     boxes: tuple[Floats, ...]
+    chord_um: Floats
+    off_um: Floats
 
     @property
     def region_um(self) -> Region:
@@ -69,13 +76,14 @@ class Swept(NamedTuple):
         whole: Region = self.joined[-1][0] if self.joined else shapely.Polygon()
         return whole
 
-    def up_to(self, stretch: int, at: int) -> Region:
-        """What is swept on a stretch up to one of its places, by its index on the way; that is the first at least."""
-        bounds, place_um = np.array([[self.first[stretch], at + 1]]), self.way.place_um
+    def up_to(self, stretch: int, at: int, since: int = 0) -> Region:
+        """What is swept on a stretch from a place `since` to another, its first at least, by indices on the way."""
+        begin, place_um = max(since, int(self.first[stretch])), self.way.place_um
+        bounds = np.array([[begin, at + 1]])
         if not self.is_band[stretch]:
             whole = np.append(self.first, len(self.way.row))[None, stretch : stretch + 2]
             made = stars(place_um, bounds, middles(self.way, whole), self.offset_um)
-        elif np.hypot(*(place_um[at] - place_um[bounds[0, 0]])) <= self.offset_um:  # too short to tell where it leads
+        elif np.hypot(*(place_um[at] - place_um[begin])) <= self.offset_um:  # too short to tell where it leads
             made = stars(place_um, bounds, place_um[bounds[:, 0]], self.offset_um)
         else:
             made = bands(place_um, bounds, self.offset_um)
@@ -101,25 +109,55 @@ class Swept(NamedTuple):
             else:
                 past_it = min((at + 1) << _KEPT, len(self.boxes[level - 1]))
                 todo += [(level - 1, each) for each in reversed(range(at << _KEPT, past_it))]
-        return [*found, *self._of_stretches(np.array(single, dtype=np.int64))]
+        return [*found, *self.of_stretches(np.array(single, dtype=np.int64))]
 
-    def _of_stretches(self, at: Ints) -> Regions:
+    def of_stretches(self, at: Ints) -> Regions:
         """Regions (k,) of some stretches."""
         bounds = np.stack([self.first[at], np.append(self.first, len(self.way.row))[at + 1]], axis=1)
         return _regions(self.way, bounds, self.is_band[at], self.offset_um)
+
+    def stretches_near(self, box: Box) -> Ints:
+        """Indices (k,) of the stretches whose regions come near a box, in order."""
+        at = np.arange(len(self.boxes[-1]))
+        for level in range(len(self.boxes) - 1, -1, -1):
+            low_x, low_y, high_x, high_y = self.boxes[level][at].T
+            at = at[(low_x <= box[2]) & (high_x >= box[0]) & (low_y <= box[3]) & (high_y >= box[1])]
+            if level:
+                within = (at[:, None] << _KEPT) + np.arange(1 << _KEPT)
+                at = within[within < len(self.boxes[level - 1])]
+        return at
 
     def places_near(self, box: Box) -> Ints:
         """Indices of the places on the way, in order, on stretches whose regions come near a box.
 
         Every place is among them that lies within the box, or an offset from it.
         """
-        low_x, low_y, high_x, high_y = self.boxes[0].T if len(self.boxes[0]) else np.empty((4, 0))
-        meets = (low_x <= box[2]) & (high_x >= box[0]) & (low_y <= box[3]) & (high_y >= box[1])
-        near = np.flatnonzero(meets)
-        first, number = self.first[near], np.diff(np.append(self.first, len(self.way.row)))[near]
+        return self.places_of(self.stretches_near(box))
+
+    def places_of(self, stretches: Ints) -> Ints:
+        """Indices of the places on the way, in order, of stretches (k,)."""
+        first = self.first[stretches]
+        number = np.append(self.first, len(self.way.row))[stretches + 1] - first
         before = np.cumsum(number) - number
         places: Ints = np.arange(int(number.sum())) + np.repeat(first - before, number)
         return places
+
+
+class Remade:
+    """Regions of single stretches, made where they are looked at; the last ones stay for who looks again."""
+
+    def __init__(self, swept: Swept) -> None:
+        self._swept = swept
+        self._made: dict[int, Region] = {}
+
+    def of(self, at: Ints) -> list[Region]:
+        """Regions of stretches by their indices (k,)."""
+        if len(self._made) > _REMADE:
+            self._made.clear()
+        lacking = [each for each in at.tolist() if each not in self._made]
+        if lacking:
+            self._made.update(zip(lacking, self._swept.of_stretches(np.array(lacking)), strict=True))
+        return [self._made[each] for each in at.tolist()]
 
 
 def _meet(this: Box, other: Box) -> bool:
@@ -143,7 +181,21 @@ def swept_along(curves: Curves, way: WireWay, offset_um: float) -> Swept:
     regions = _regions(way, bounds, is_band, offset_um)
     joined = _joined(regions)
     boxes = tuple(np.asarray(shapely.bounds(level)).reshape(-1, 4) for level in (regions, *joined))
-    return Swept(way, first, is_band, offset_um, joined, boxes)
+    return Swept(way, first, is_band, offset_um, joined, boxes, *_chords(way.place_um, bounds))
+
+
+def _chords(place_um: Floats, bounds: Ints) -> tuple[Floats, Floats]:
+    """Chords (s, 2, 2) of stretches by their `bounds` (s, 2), and how far places (m, 2) lie off them at most (s,)."""
+    chord = np.stack([place_um[bounds[:, 0]], place_um[bounds[:, 1] - 1]], axis=1)
+    if not len(bounds):
+        return chord, np.empty(0)
+    own = np.repeat(np.arange(len(bounds)), bounds[:, 1] - bounds[:, 0])
+    by = chord[:, 1] - chord[:, 0]
+    square = np.maximum((by**2).sum(axis=1), np.finfo(np.float64).tiny)
+    out = place_um[bounds[0, 0] : bounds[-1, 1]] - chord[own, 0]
+    share = np.clip((out * by[own]).sum(axis=1) / square[own], 0.0, 1.0)
+    off = out - share[:, None] * by[own]
+    return chord, np.maximum.reduceat(np.hypot(off[:, 0], off[:, 1]), bounds[:, 0] - bounds[0, 0])
 
 
 def _regions(way: WireWay, bounds: Ints, is_band: Bools, offset_um: float) -> Regions:

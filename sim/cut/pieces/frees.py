@@ -22,10 +22,11 @@ import shapely
 from numpy.typing import NDArray
 
 from parser.geometry.curves import Floats, Ints
-from sim.cut.kerf.swept import Box, Swept
+from sim.cut.kerf.swept import Box, Remade, Swept
 from sim.cut.kerf.ways import last_beside
 from sim.cut.regions import Region, difference, union_all
 
+_FEW = 64  # stretches near a box of which each is looked at; of more, regions of several are there already
 _SPARED = 0.1  # offsets: a wire that reaches less deep into a piece only takes off what an earlier cut left on it
 
 
@@ -108,46 +109,107 @@ def parted(stock_um: Region, kerf_um: Region) -> list[shapely.Polygon]:
     return parts
 
 
-def closing_of(
-    question: FreeQuestion, swept: tuple[Swept, ...], contours: list[int], offset_um: float
-) -> Closing | None:
+class Ways(NamedTuple):
+    """What the wire swept on each contour, and the regions of its stretches."""
+
+    swept: tuple[Swept, ...]
+    remade: tuple[Remade, ...]
+
+
+def ways_of(swept: tuple[Swept, ...]) -> Ways:
+    """The ways of all contours."""
+    return Ways(swept, tuple(map(Remade, swept)))
+
+
+def closing_of(question: FreeQuestion, ways: Ways, contours: list[int]) -> Closing | None:
     """The first moment at which the kerfs of some contours, in the order they are cut, answer the question with yes."""
     part = question.part_left(question.stock_um, shapely.Polygon())
     for contour in contours:
-        after = _part_round(question, part, swept[contour].near(0, len(swept[contour].first), question.box))
+        near = _near(question.box, ways, contour)
+        after = _part_round(question, part, near.within(0, near.number))
         if question.is_free(after):
-            return _within(question, part, swept[contour], offset_um, FreeMoment(contour, -1, after))
+            return _within(question, part, near, FreeMoment(contour, -1, after))
         part = after
     return None
+
+
+class _FewNear(NamedTuple):
+    """The stretches of a contour that come near a box, where these are few: their indices and regions."""
+
+    swept: Swept
+    stretch: Ints
+    region: list[Region]
+
+    @property
+    def number(self) -> int:
+        """Of the stretches to choose from."""
+        return len(self.stretch)
+
+    def within(self, low: int, high: int) -> list[Region]:
+        """Regions of some of them."""
+        return self.region[low:high]
+
+
+class _ManyNear(NamedTuple):
+    """All stretches of a contour of which many come near a box: regions of several are there already."""
+
+    swept: Swept
+    stretch: Ints
+    box: Box
+
+    @property
+    def number(self) -> int:
+        """Of the stretches to choose from."""
+        return len(self.stretch)
+
+    def within(self, low: int, high: int) -> list[Region]:
+        """Regions that are swept on some of them, as far as they come near the box."""
+        return self.swept.near(low, high, self.box)
+
+
+def _near(box: Box, ways: Ways, contour: int) -> _FewNear | _ManyNear:
+    swept = ways.swept[contour]
+    stretch = swept.stretches_near(box)
+    if len(stretch) <= _FEW:
+        return _FewNear(swept, stretch, ways.remade[contour].of(stretch))
+    return _ManyNear(swept, np.arange(len(swept.first)), box)
 
 
 def _part_round(question: FreeQuestion, part: shapely.Polygon, kerfs: list[Region]) -> shapely.Polygon:
     return question.part_left(part, union_all(kerfs)) if kerfs else part
 
 
-def _within(
-    question: FreeQuestion, hung: shapely.Polygon, swept: Swept, offset_um: float, whole: FreeMoment
-) -> Closing:
+def _within(question: FreeQuestion, hung: shapely.Polygon, near: _FewNear | _ManyNear, whole: FreeMoment) -> Closing:
     """The moment on the wire's way whose whole kerf frees the piece: halves the stretches, then the places of one."""
-    low, high, piece = 0, len(swept.first), whole.piece_um
+    low, high, piece = 0, near.number, whole.piece_um
     while high - low > 1:
         middle = low + (1 << ((high - low - 1).bit_length() - 1))  # as the tree of the regions is halved
-        after = _part_round(question, hung, swept.near(low, middle, question.box))
+        after = _part_round(question, hung, near.within(low, middle))
         if question.is_free(after):
             high, piece = middle, after
         else:
             low, hung = middle, after
-    stretch = low
-    first, past = np.append(swept.first, len(swept.way.row))[low : low + 2].tolist()
-    before, low, high = hung, first - 1, past - 1
+    swept, stretch = near.swept, int(near.stretch[low])
+    first, past = np.append(swept.first, len(swept.way.row))[stretch : stretch + 2].tolist()
+    beside = first + _reaching(swept.way.place_um[first:past], hung.bounds, swept.offset_um)
+    before, since = hung, int(beside[0])
+    low, high = max(first, since) - 1, int(beside[-1])
     while high - low > 1:
         at = (low + high) // 2
-        after = question.part_left(before, swept.up_to(stretch, at))
+        after = question.part_left(before, swept.up_to(stretch, at, since))
         if question.is_free(after):
             high, piece = at, after
         else:
             low, hung = at, after
     return Closing(FreeMoment(whole.contour, high, piece), hung)
+
+
+def _reaching(place_um: Floats, box: Box, offset_um: float) -> Ints:
+    """Indices of the places (m, 2) whose discs come near a box; of the first where none does."""
+    x, y = place_um.T
+    near_x = (x >= box[0] - offset_um) & (x <= box[2] + offset_um)
+    near = np.flatnonzero(near_x & (y >= box[1] - offset_um) & (y <= box[3] + offset_um))
+    return near if len(near) else np.zeros(1, dtype=np.int64)
 
 
 class Rest(NamedTuple):
@@ -169,12 +231,18 @@ def cut_on_um(piece_um: shapely.Polygon, rests: Iterable[Rest], offset_um: float
 def _inside(piece_um: shapely.Polygon, rest: Rest, offset_um: float) -> Ints:
     """Indices of the places from which the wire cuts in a piece."""
     reach = (1.0 - _SPARED) * offset_um
+    swept = rest.swept
+    stretch = swept.stretches_near(piece_um.bounds)
+    # Most stretches near a piece run beside it: then no place of them needs a look.
+    chord, within = shapely.linestrings(swept.chord_um[stretch]), reach + swept.off_um[stretch]
+    stretch = stretch[shapely.dwithin(piece_um, chord, within)]  # type: ignore[call-overload]  # of one distance alone
+    near = swept.places_of(stretch)
+    near = near[near >= rest.first]
     low_x, low_y, high_x, high_y = piece_um.bounds
-    near = rest.swept.places_near(piece_um.bounds)
-    x, y = rest.swept.way.place_um[near].T
+    x, y = swept.way.place_um[near].T
     is_near = (x >= low_x - reach) & (x <= high_x + reach) & (y >= low_y - reach) & (y <= high_y + reach)
-    near = near[is_near & (near >= rest.first)]
-    inside: Ints = near[shapely.dwithin(piece_um, shapely.points(rest.swept.way.place_um[near]), reach)]
+    near = near[is_near]
+    inside: Ints = near[shapely.dwithin(piece_um, shapely.points(swept.way.place_um[near]), reach)]
     return inside
 
 
@@ -209,7 +277,7 @@ class Cutting(NamedTuple):
         What else is left of it, p parts.
     contours
         (p,) of each: indices of the contours whose kerfs have a share in its outer edge, in order.
-    swept
+    ways
         What the wire swept on each contour.
     offset_um
         Half the width that the wire cuts.
@@ -219,7 +287,7 @@ class Cutting(NamedTuple):
     frame_um: shapely.Polygon
     parts_um: list[shapely.Polygon]
     contours: list[list[int]]
-    swept: tuple[Swept, ...]
+    ways: Ways
     offset_um: float
 
 
@@ -317,7 +385,7 @@ def _asked_again(cutting: Cutting, part: int, before: FreeQuestion) -> _BoxedPar
 
 
 def _boxed_part(cutting: Cutting, part: int, question: FreeQuestion) -> _BoxedPart | None:
-    closing = closing_of(question, cutting.swept, cutting.contours[part], cutting.offset_um)
+    closing = closing_of(question, cutting.ways, cutting.contours[part])
     if closing is not None:
         return _BoxedPart(part, question, closing)
     return None if question.is_whole else _asked_again(cutting, part, question)

@@ -9,7 +9,7 @@ import shapely
 from parser.toolpath import Point
 from sim.cut.kerf.swept import Kerf
 from sim.cut.kerf.ways import WireWay
-from sim.cut.pieces.frees import Cutting, FreeMoment, Rest, cut_on_um, moments_of, parted
+from sim.cut.pieces.frees import Cutting, FreeMoment, Rest, cut_on_um, moments_of, parted, ways_of
 from sim.cut.pieces.kinds import Bridge, Kind, Loose, bridge_of, held_after, kinds_of, older_place
 from sim.setup.obstacles import Outline
 
@@ -108,11 +108,11 @@ def pieces_of(kerf: Kerf, work_um: Outline | None, material: Material, pauses: S
     whole = [part for part in others if part.area * 1e-6 >= _CRUMB_MM2]
     kerfs = shapely.STRtree([each.region_um for each in kerf.swept])
     rounds = [_round(kerfs, part) for part in whole]
-    moments = moments_of(Cutting(stock, frame, whole, rounds, kerf.swept, kerf.offset_um))
+    moments = moments_of(Cutting(stock, frame, whole, rounds, ways_of(kerf.swept), kerf.offset_um))
     loosened = zip(whole, rounds, moments, strict=True)
     loose = [_loose(kerf, stock, part, round_, moment) for part, round_, moment in loosened if moment is not None]
     kinds = kinds_of(loose, kerf)
-    cuts = _Cuts(kerf, kerfs, pauses, material)
+    cuts = _Cuts(kerf, kerfs, pauses, material, {})
     found = [_piece(cuts, piece, kind) for piece, kind in zip(loose, kinds, strict=True)]
     pieces = sorted(found, key=lambda piece: piece.freed.t_s)
     return Pieces(_as_frame(frame, work_um, material), tuple(pieces), len(others) - len(whole))
@@ -144,12 +144,17 @@ def _as_frame(frame: shapely.Polygon, work_um: Outline | None, material: Materia
 
 
 class _Cuts(NamedTuple):
-    """The kerf, the kerfs of its contours in a tree, the pauses between the blocks, and what is cut."""
+    """The kerf, the kerfs of its contours in a tree, the pauses between the blocks, and what is cut.
+
+    `after_um` is what the wire cuts on in pieces that are known, by the polygon at their moment and whether it is a
+    slug: parts that come free together are one then.
+    """
 
     kerf: Kerf
     kerfs: shapely.STRtree
     pauses: Sequence[int]
     material: Material
+    after_um: dict[tuple[int, bool], float]
 
 
 def _loose(kerf: Kerf, stock: shapely.Polygon, part: shapely.Polygon, contours: list[int], moment: FreeMoment) -> Loose:
@@ -166,7 +171,7 @@ def _piece(cuts: _Cuts, loose: Loose, kind: Kind) -> Piece:
     ways = [each.way for each in kerf.swept]
     lead_um = float(ways[contour].along_um[older.at]) if is_slug and older and older.contour == contour else 0.0
     area = part.area * 1e-6
-    after = cut_on_um(loose.moment.piece_um, _after(cuts, loose, is_slug=is_slug), kerf.offset_um)
+    after = _cut_after_um(cuts, loose, is_slug=is_slug)
     freed = _freed(ways[contour], loose.moment)
     beside_contours = [ways[index] for index in loose.contours if index <= contour]
     pause = held_after(loose.moment.piece_um.exterior, beside_contours, freed.block - 1, cuts.pauses, kerf.offset_um)
@@ -194,6 +199,15 @@ def _round(kerfs: shapely.STRtree, part: shapely.Polygon) -> list[int]:
     """Contours whose kerfs have a share in the outer edge of a part: they enclose it, with the edge of the work."""
     near: list[int] = np.sort(kerfs.query(part.exterior, predicate="dwithin", distance=_BESIDE_UM)).tolist()
     return near
+
+
+def _cut_after_um(cuts: _Cuts, loose: Loose, *, is_slug: bool) -> float:
+    """How far the wire goes on in a part once it is free, and in those that come free with it."""
+    together = id(loose.moment.piece_um), is_slug
+    if together not in cuts.after_um:
+        rests = _after(cuts, loose, is_slug=is_slug)
+        cuts.after_um[together] = cut_on_um(loose.moment.piece_um, rests, cuts.kerf.offset_um)
+    return cuts.after_um[together]
 
 
 def _after(cuts: _Cuts, loose: Loose, *, is_slug: bool) -> list[Rest]:

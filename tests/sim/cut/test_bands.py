@@ -69,10 +69,15 @@ def test_what_is_swept_up_to_a_place_is_the_union_of_the_discs_so_far() -> None:
     first, row = np.zeros(1, dtype=np.int64), np.zeros(1001, dtype=np.int64)
     assert are_straight(place, first).all()
     assert not are_straight(place[:502], first).any()
-    swept = Swept(WireWay(place, along, along, row), first, np.array([True]), F, (), ())
+    chord, off = np.zeros((1, 2, 2)), np.zeros(1)
+    swept = Swept(WireWay(place, along, along, row), first, np.array([True]), F, (), (), chord, off)
     for at in (0, 1, 20, 34, 100, 501, 700, 1000):
         discs = shapely.union_all(shapely.buffer(shapely.points(place[: at + 1]), F, quad_segs=64))
         region = swept.up_to(0, at)
+        assert shapely.hausdorff_distance(region.exterior, discs.exterior, densify=0.2) <= OFF_UM + NOTCH_UM, at
+    for since, at in ((300, 310), (300, 400), (300, 1000)):
+        discs = shapely.union_all(shapely.buffer(shapely.points(place[since : at + 1]), F, quad_segs=64))
+        region = swept.up_to(0, at, since)
         assert shapely.hausdorff_distance(region.exterior, discs.exterior, densify=0.2) <= OFF_UM + NOTCH_UM, at
 
 

@@ -16,8 +16,9 @@ from sim.cut.kerf.ways import rows_that_made
 from sim.cut.pieces import frees, kept_edges
 from sim.cut.pieces.kept_edges import lie_on
 from sim.cut.pieces.pieces import pieces_of
-from sim.cut.play import plays_of
+from sim.cut.play import plays_of, shifted_until, sides_of
 from sim.cut.sizes import sizes_of
+from sim.cut.walls import room_of, walls_of
 
 
 def lattice(lines: int) -> Toolpath:
@@ -96,6 +97,45 @@ def test_pieces_touch_the_walls_near_them_as_among_all_walls(path, monkeypatch):
         grazing = sum(abs(a - b) > 10.0 * within for a, b in zip(*shifts, strict=True) if a != b)
         assert grazing <= 1
         assert one.pinch.width_um == pytest.approx(other.pinch.width_um, abs=within)
+
+
+def test_walls_ahead_are_those_that_a_piece_meets_on_its_way_and_no_others_are_left_where_it_says_so():
+    """Also where the wire stands far from the piece: rows come free at their one end, and pieces lie at the other."""
+    pieces = pieces_along(lattice(4))
+    walls, toward_deg, said = walls_of(pieces), np.linspace(0.0, 360.0, 16, endpoint=False), set()
+    for piece in pieces.freed:
+        outline = shapely.Polygon(piece.outline_um.exterior)
+        room, edge = room_of(walls, outline, piece.freed.wire_um, piece.freed.t_s), sides_of(outline.exterior)
+        every = shifted_until(edge, sides_of(room.within(1e9)[0]), np.radians(toward_deg))
+        for far_um in (300.0, 3000.0, 12_000.0):
+            lines, is_all = room.ahead(toward_deg, far_um)
+            said.add(is_all)
+            ahead = shifted_until(edge, sides_of(lines), np.radians(toward_deg))
+            for one, other in zip(ahead, every, strict=True):
+                assert one.by == other.by or (not is_all and min(one.by, other.by) > far_um)
+    assert said == {False, True}
+
+
+@pytest.mark.parametrize("few", [0, 64])
+def test_stretches_are_looked_at_one_by_one_as_several_together(few, monkeypatch):
+    kerf = kerf_along(lattice(3))
+    monkeypatch.setattr(frees, "_FEW", few)
+    freed = [piece.freed for piece in pieces_of(kerf, None, STEEL).freed]
+    monkeypatch.setattr(frees, "_FEW", 5)
+    assert len(freed) > 8
+    assert [piece.freed for piece in pieces_of(kerf, None, STEEL).freed] == freed
+
+
+@pytest.mark.parametrize("path", [lattice(4), flower()], ids=["lattice", "flower"])
+def test_places_near_a_piece_are_found_by_the_chords_of_their_stretches(path):
+    (swept,) = kerf_along(path).swept
+    rng = np.random.default_rng(6)
+    for x, y in rng.uniform(0.0, 4000.0, (12, 2)):
+        piece = shapely.Point(x, y).buffer(rng.uniform(50.0, 600.0))
+        shapely.prepare(piece)
+        inside = frees._inside(piece, frees.Rest(swept, 100), F)
+        near = shapely.distance(piece, shapely.points(swept.way.place_um)) <= (1.0 - frees._SPARED) * F
+        assert inside.tolist() == [at for at in np.flatnonzero(near).tolist() if at >= 100]
 
 
 @pytest.mark.parametrize("path", [lattice(4), flower()], ids=["lattice", "flower"])
