@@ -380,7 +380,7 @@ def _first_asked(cutting: Cutting, part: int, point: shapely.Point) -> _BoxedPar
 
 def _asked_again(cutting: Cutting, part: int, before: FreeQuestion) -> _BoxedPart | None:
     low_x, low_y, high_x, high_y = before.box
-    box = _grown(before.box, max(high_x - low_x, high_y - low_y))
+    box = _grown(before.box, 0.5 * max(high_x - low_x, high_y - low_y))
     return _boxed_part(cutting, part, question_of(cutting.stock_um, box, before.piece, before.frame))
 
 

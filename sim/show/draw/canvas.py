@@ -67,12 +67,13 @@ def arrow_head(tip: Floats, direction: Floats, size: float) -> Floats:
     return np.array([tip, back + 0.36 * size * side, tip - 0.75 * size * direction, back - 0.36 * size * side])
 
 
-def dashes(points: Floats, dash: float, gap: float) -> list[Floats]:
-    """Dashes (2, 2) along each chord of `points`, (n, 2)."""
-    made: list[Floats] = []
-    for first, last in pairwise(points):
-        length = float(np.hypot(*(last - first)))
-        for start in np.arange(0.0, length, dash + gap):
-            ends = np.array([[start], [min(start + dash, length)]]) / length
-            made.append(first + ends * (last - first))
+def dashes(points: Floats, dash: float, gap: float) -> Floats:
+    """Dashes (k, 2, 2), from and to, along each chord of `points`, (n, 2)."""
+    by = np.diff(points, axis=0)
+    length = np.hypot(by[:, 0], by[:, 1])
+    number = np.ceil(length / (dash + gap)).astype(np.int64)
+    chord = np.repeat(np.arange(len(by)), number)
+    start = (np.arange(len(chord)) - (np.cumsum(number) - number)[chord]) * (dash + gap)
+    ends = np.stack([start, np.minimum(start + dash, length[chord])], axis=1) / length[chord, None]
+    made: Floats = points[chord, None] + ends[:, :, None] * by[chord, None]
     return made

@@ -161,7 +161,13 @@ def _circle(center: Floats, radius: float) -> str:
 
 def _path(lines: Sequence[Floats], end: str = "") -> str:
     """Lines (n, 2) as path data of two decimals: a hundredth of a pixel does not show."""
-    return "".join(f"M{_places(line)}{end}" for line in _drawn(lines))
+    drawn = [line for line in _drawn(lines) if len(line)]
+    if not drawn:
+        return ""
+    # All formatted at once: a picture has tens of thousands of places, and as many lines of a few of them.
+    figures = np.round(np.concatenate(drawn), 2) + 0.0  # no −0
+    form = "".join(["M" + "L".join(["%.6g,%.6g"] * len(line)) + end for line in drawn])
+    return form % tuple(figures.ravel().tolist())
 
 
 def _fewer(line: Floats) -> Floats:
@@ -171,12 +177,6 @@ def _fewer(line: Floats) -> Floats:
         tolerance = min(1.25 * tolerance, COARSEST_PX)
         fewer = simplify(line, tolerance)
     return fewer
-
-
-def _places(line: Floats) -> str:
-    """Places (n, 2), all formatted at once: the lines of a picture have tens of thousands of them."""
-    figures = np.round(line, 2) + 0.0  # no −0
-    return "L".join(["%.6g,%.6g"] * len(line)) % tuple(figures.ravel().tolist())
 
 
 def _drawn(lines: Sequence[Floats]) -> Iterator[Floats]:
