@@ -10,6 +10,8 @@ The kerf of a run: the region that the wire removed, and how wide it is beside e
 """
 
 from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -55,10 +57,6 @@ class Swept(NamedTuple):
         stretches are made again where they are looked at: all of them take most of the memory of a run.
     boxes
         (…, 4) float64 of the stretches, and of each level: lowest x and y, highest x and y of its regions.
-    chord_um
-        (s, 2, 2) float64, from the first place of each stretch to its last one.
-    off_um
-        (s,) float64, how far places of a stretch lie off its chord at most.
     """
 
     way: WireWay
@@ -67,8 +65,6 @@ class Swept(NamedTuple):
     offset_um: float
     joined: tuple[Regions, ...]
     boxes: tuple[Floats, ...]
-    chord_um: Floats
-    off_um: Floats
 
     @property
     def region_um(self) -> Region:
@@ -136,11 +132,29 @@ class Swept(NamedTuple):
 
     def places_of(self, stretches: Ints) -> Ints:
         """Indices of the places on the way, in order, of stretches (k,)."""
-        first = self.first[stretches]
-        number = np.append(self.first, len(self.way.row))[stretches + 1] - first
+        first, number = self.first[stretches], self._numbers(stretches)
         before = np.cumsum(number) - number
         places: Ints = np.arange(int(number.sum())) + np.repeat(first - before, number)
         return places
+
+    def chords_of(self, stretches: Ints) -> tuple[Floats, Floats]:
+        """Chords (k, 2, 2) of stretches, from first to last place, and how far places lie off them at most (k,)."""
+        number = self._numbers(stretches)
+        ends = np.stack([self.first[stretches], self.first[stretches] + number - 1], axis=1)
+        chord = self.way.place_um[ends]
+        if not len(stretches):
+            return chord, np.empty(0)
+        own, by = np.repeat(np.arange(len(number)), number), chord[:, 1] - chord[:, 0]
+        square = np.maximum((by**2).sum(axis=1), np.finfo(np.float64).tiny)
+        out = self.way.place_um[self.places_of(stretches)] - chord[own, 0]
+        share = np.clip((out * by[own]).sum(axis=1) / square[own], 0.0, 1.0)
+        off = out - share[:, None] * by[own]
+        return chord, np.maximum.reduceat(np.hypot(off[:, 0], off[:, 1]), np.cumsum(number) - number)
+
+    def _numbers(self, stretches: Ints) -> Ints:
+        """How many places each of some stretches has."""
+        numbers: Ints = np.append(self.first, len(self.way.row))[stretches + 1] - self.first[stretches]
+        return numbers
 
 
 class Remade:
@@ -181,21 +195,7 @@ def swept_along(curves: Curves, way: WireWay, offset_um: float) -> Swept:
     regions = _regions(way, bounds, is_band, offset_um)
     joined = _joined(regions)
     boxes = tuple(np.asarray(shapely.bounds(level)).reshape(-1, 4) for level in (regions, *joined))
-    return Swept(way, first, is_band, offset_um, joined, boxes, *_chords(way.place_um, bounds))
-
-
-def _chords(place_um: Floats, bounds: Ints) -> tuple[Floats, Floats]:
-    """Chords (s, 2, 2) of stretches by their `bounds` (s, 2), and how far places (m, 2) lie off them at most (s,)."""
-    chord = np.stack([place_um[bounds[:, 0]], place_um[bounds[:, 1] - 1]], axis=1)
-    if not len(bounds):
-        return chord, np.empty(0)
-    own = np.repeat(np.arange(len(bounds)), bounds[:, 1] - bounds[:, 0])
-    by = chord[:, 1] - chord[:, 0]
-    square = np.maximum((by**2).sum(axis=1), np.finfo(np.float64).tiny)
-    out = place_um[bounds[0, 0] : bounds[-1, 1]] - chord[own, 0]
-    share = np.clip((out * by[own]).sum(axis=1) / square[own], 0.0, 1.0)
-    off = out - share[:, None] * by[own]
-    return chord, np.maximum.reduceat(np.hypot(off[:, 0], off[:, 1]), bounds[:, 0] - bounds[0, 0])
+    return Swept(way, first, is_band, offset_um, joined, boxes)
 
 
 def _regions(way: WireWay, bounds: Ints, is_band: Bools, offset_um: float) -> Regions:
@@ -259,11 +259,14 @@ def _joined(regions: Regions) -> tuple[Regions, ...]:
     return tuple(levels)
 
 
-class Kerf(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class Kerf:
     """What the wire removed, c contours and n blocks.
 
     Attributes
     ----------
+    toolpath
+        The path that was run.
     offset_um
         Half the width that the wire cuts: its radius plus the spark gap.
     swept
@@ -274,24 +277,40 @@ class Kerf(NamedTuple):
         (n,) number of the edge that each block's pass runs over, from 0; −1 of leads and jumps.
     region_um
         All of it: a shapely polygon or multipolygon.
-    area_mm2
-        Its area.
-    edges
-        Both edges at stations along the blocks.
-    left, right, width
-        How far the kerf reaches from the ideal path, and both together, by block.
     """
 
+    toolpath: Toolpath
     offset_um: float
     swept: tuple[Swept, ...]
     leads: Bools
     pass_edge: Ints
     region_um: Region
-    area_mm2: float
-    edges: Edges
-    left: Range
-    right: Range
-    width: Range
+
+    @property
+    def area_mm2(self) -> float:
+        """Area of all of it."""
+        return self.region_um.area * 1e-6
+
+    @cached_property
+    def edges(self) -> Edges:
+        """Both edges at stations along the blocks; who asks for pieces alone does without them."""
+        ways = tuple(each.way for each in self.swept)
+        return edges_of(self.toolpath, ~self.toolpath.is_jump, ways, self.offset_um)
+
+    @cached_property
+    def left(self) -> Range:
+        """How far the kerf reaches to the left of the ideal path, by block."""
+        return ranges(self.edges, self.edges.left_um, len(self.toolpath))
+
+    @cached_property
+    def right(self) -> Range:
+        """How far it reaches to the right, by block."""
+        return ranges(self.edges, self.edges.right_um, len(self.toolpath))
+
+    @cached_property
+    def width(self) -> Range:
+        """How far it reaches to both sides together, by block."""
+        return ranges(self.edges, self.edges.left_um + self.edges.right_um, len(self.toolpath))
 
 
 def kerf_of(toolpath: Toolpath, trace: Trace, contours: Sequence[Contour], offset_um: float) -> Kerf:
@@ -301,22 +320,15 @@ def kerf_of(toolpath: Toolpath, trace: Trace, contours: Sequence[Contour], offse
     """
     ways = wire_ways(trace, contours, offset_um)
     swept = tuple(_swept(toolpath, contour, way, offset_um) for contour, way in zip(contours, ways, strict=True))
-    region = union_all(each.region_um for each in swept)
-    edges = edges_of(toolpath, ~toolpath.is_jump, ways, offset_um)
-    left, right = edges.left_um, edges.right_um
     passes = find_passes(toolpath)
     edge_of = np.array([*(pass_.edge for pass_ in passes.passes), -1], dtype=np.int64)
     return Kerf(
+        toolpath=toolpath,
         offset_um=offset_um,
         swept=swept,
         leads=leads_of(passes, toolpath),
         pass_edge=edge_of[passes.of_row],
-        region_um=region,
-        area_mm2=region.area * 1e-6,
-        edges=edges,
-        left=ranges(edges, left, len(toolpath)),
-        right=ranges(edges, right, len(toolpath)),
-        width=ranges(edges, left + right, len(toolpath)),
+        region_um=union_all(each.region_um for each in swept),
     )
 
 

@@ -234,8 +234,9 @@ def _inside(piece_um: shapely.Polygon, rest: Rest, offset_um: float) -> Ints:
     swept = rest.swept
     stretch = swept.stretches_near(piece_um.bounds)
     # Most stretches near a piece run beside it: then no place of them needs a look.
-    chord, within = shapely.linestrings(swept.chord_um[stretch]), reach + swept.off_um[stretch]
-    stretch = stretch[shapely.dwithin(piece_um, chord, within)]  # type: ignore[call-overload]  # of one distance alone
+    chord, off_um = swept.chords_of(stretch)
+    runs_in = shapely.dwithin(piece_um, shapely.linestrings(chord), reach + off_um)  # type: ignore[call-overload]
+    stretch = stretch[runs_in]
     near = swept.places_of(stretch)
     near = near[near >= rest.first]
     low_x, low_y, high_x, high_y = piece_um.bounds

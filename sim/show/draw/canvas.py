@@ -5,7 +5,6 @@ Pictures say what is drawn where; a backend makes pixels (`sim.show.draw.raster`
 
 from collections.abc import Sequence
 from contextlib import AbstractContextManager
-from itertools import pairwise
 from typing import Protocol
 
 import numpy as np

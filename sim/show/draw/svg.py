@@ -3,7 +3,7 @@
 Lines as data of an SVG path: whole and half units, by differences, so that they stay short.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from html import escape
 from typing import Final
@@ -159,7 +159,7 @@ def _circle(center: Floats, radius: float) -> str:
     return f'cx="{_figure(center[0])}" cy="{_figure(center[1])}" r="{_figure(radius)}"'
 
 
-def _path(lines: Sequence[Floats], end: str = "") -> str:
+def _path(lines: Iterable[Floats], end: str = "") -> str:
     """Lines (n, 2) as path data of two decimals: a hundredth of a pixel does not show."""
     drawn = [line for line in _drawn(lines) if len(line)]
     if not drawn:
@@ -179,7 +179,7 @@ def _fewer(line: Floats) -> Floats:
     return fewer
 
 
-def _drawn(lines: Sequence[Floats]) -> Iterator[Floats]:
+def _drawn(lines: Iterable[Floats]) -> Iterator[Floats]:
     """A place alone becomes a line to itself, which round ends show as a dot."""
     return (np.repeat(line, 2, axis=0) if len(line) == 1 else _fewer(line) for line in lines)
 

@@ -69,8 +69,7 @@ def test_what_is_swept_up_to_a_place_is_the_union_of_the_discs_so_far() -> None:
     first, row = np.zeros(1, dtype=np.int64), np.zeros(1001, dtype=np.int64)
     assert are_straight(place, first).all()
     assert not are_straight(place[:502], first).any()
-    chord, off = np.zeros((1, 2, 2)), np.zeros(1)
-    swept = Swept(WireWay(place, along, along, row), first, np.array([True]), F, (), (), chord, off)
+    swept = Swept(WireWay(place, along, along, row), first, np.array([True]), F, (), ())
     for at in (0, 1, 20, 34, 100, 501, 700, 1000):
         discs = shapely.union_all(shapely.buffer(shapely.points(place[: at + 1]), F, quad_segs=64))
         region = swept.up_to(0, at)
