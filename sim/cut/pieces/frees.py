@@ -343,7 +343,7 @@ def _came_free_with(
     if boxed.question.is_whole or cutting.frame_um.intersects(hung):
         return part
     for neighbour in tree.query(hung, predicate="intersects").tolist():
-        if neighbour not in parts or cutting.contours[neighbour] != cutting.contours[part]:
+        if neighbour == part or neighbour not in parts or cutting.contours[neighbour] != cutting.contours[part]:
             continue
         other = _last(freed_with, neighbour)
         if parts[other].when != boxed.when:

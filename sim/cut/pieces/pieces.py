@@ -107,7 +107,7 @@ def pieces_of(kerf: Kerf, work_um: Outline | None, material: Material, pauses: S
     others = [part for part in parts if part is not frame]
     whole = [part for part in others if part.area * 1e-6 >= _CRUMB_MM2]
     kerfs = shapely.STRtree([each.region_um for each in kerf.swept])
-    rounds = [_round(kerfs, part) for part in whole]
+    rounds = _rounds(kerfs, whole)
     moments = moments_of(Cutting(stock, frame, whole, rounds, ways_of(kerf.swept), kerf.offset_um))
     loosened = zip(whole, rounds, moments, strict=True)
     loose = [_loose(kerf, stock, part, round_, moment) for part, round_, moment in loosened if moment is not None]
@@ -195,10 +195,18 @@ def _freed(way: WireWay, moment: FreeMoment) -> Freed:
     return Freed(moment.contour + 1, int(way.row[moment.at]) + 1, float(way.t_s[moment.at]), Point(x, y))
 
 
-def _round(kerfs: shapely.STRtree, part: shapely.Polygon) -> list[int]:
-    """Contours whose kerfs have a share in the outer edge of a part: they enclose it, with the edge of the work."""
-    near: list[int] = np.sort(kerfs.query(part.exterior, predicate="dwithin", distance=_BESIDE_UM)).tolist()
-    return near
+def _rounds(kerfs: shapely.STRtree, parts: list[shapely.Polygon]) -> list[list[int]]:
+    """Contours whose kerfs have a share in the outer edge of each part: they enclose it, with the edge of the work."""
+    edges = shapely.get_exterior_ring(np.array(parts, dtype=np.object_))
+    found: list[list[int]] = [[] for _ in parts]
+    if not parts:
+        return found
+    near = shapely.STRtree(edges)
+    for contour, region in enumerate(kerfs.geometries):
+        shapely.prepare(region)  # one contour may free thousands of parts
+        for part in near.query(region, predicate="dwithin", distance=_BESIDE_UM).tolist():
+            found[part].append(contour)
+    return found
 
 
 def _cut_after_um(cuts: _Cuts, loose: Loose, *, is_slug: bool) -> float:
