@@ -7,10 +7,12 @@ import bench_goals
 import numpy as np
 import pytest
 from bench_cpu import in_turns, used_by
+from bench_cut import cut_parts, grid, squares
 from bench_goals import Goal, goal_lines
 from bench_growth import by_room
 from bench_path import contour_text
 from bench_peers import KLIPPER_MISSING, RS274_MISSING
+from traced import pieces_along
 
 from parser.program import parse_program
 from sim.check.file_check import Job, check_file
@@ -40,6 +42,20 @@ def test_contours_of_the_benchmark_close_and_cross_themselves_as_they_say(crosse
     assert np.hypot(*(toolpath.end_um[-1] - toolpath.start_um[0])) < 2.0
     codes = {finding.code for finding in check_file(Job("contour.3b", text.encode(), CheckSettings())).findings}
     assert ("3B307" in codes) == crosses
+
+
+def test_parts_of_the_benchmark_are_as_long_as_they_say_and_free_what_they_say() -> None:
+    path = {name: parse_program(text).toolpath for name, text, *_ in cut_parts()}
+    assert [round(float(each.length_um[~each.is_jump].sum()) / 1e6, 1) for each in path.values()] == [
+        4.8,
+        4.0,
+        38.0,
+        0.5,
+        2.5,
+    ]
+    # 3 × 3 squares; two more at the right and one above, each closed by a way from one line to the next.
+    assert len(pieces_along(parse_program(grid(4, 2_000, 500)).toolpath).freed) == 12
+    assert len(pieces_along(parse_program(squares(3, 1_000)).toolpath).freed) == 3
 
 
 def test_time_is_told_by_the_room_whose_functions_take_it() -> None:

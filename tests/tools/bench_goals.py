@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 from bench_check import sound_and_unsound
 from bench_cpu import DRYCUT, cpu_of, in_turns, used_by
+from bench_cut import cut_parts, write_holes
 from bench_motion import read_plan_step
 from bench_path import contour_text, write_path
 from bench_peers import KLIPPER_MISSING, RS274_MISSING, in_iso, klipper, klipper_cpu_s, rs274, rs274_used
@@ -20,6 +21,8 @@ from sim.check.file_check import Job, check_file
 from sim.check.settings import CheckSettings
 
 TABLE_PART_MM = 324.0
+_HOLES = 1_000
+_FEW_ROUNDS = 2  # of runs that take half a minute
 _SMALL_SHARE = 10  # of the blocks of a path: the contour that is run with its files
 
 
@@ -129,6 +132,27 @@ def _mends(folder: Path, blocks: int, rounds: int) -> Iterator[Goal]:
         yield Goal(f"check of {name} with a fault / without", "times", "", 1.5, ours / theirs)
 
 
+def _kerf(folder: Path, blocks: int, rounds: int) -> Iterator[Goal]:
+    """What `--kerf` adds to runs with their files: pieces for their pictures are worked out without it, too."""
+    for part in cut_parts():
+        path = folder / "part.3b"
+        path.write_text(part.text, encoding="ascii")
+        command = (*DRYCUT, "run", str(path), "--open", "-o", str(folder / "part"))
+        works = [lambda to=to: used_by(to).cpu_s for to in (command, (*command, "--kerf"))]
+        plain, whole = in_turns(min(rounds, _FEW_ROUNDS), *works)
+        unit = f"s, run without it {plain:.1f} s"
+        yield Goal(f"kerf: {part.name}", unit, part.before, part.goal_s, whole - plain)
+
+
+def _holes(folder: Path, blocks: int, rounds: int) -> Iterator[Goal]:
+    """A program of a drawing, made and proved."""
+    path = folder / "holes.dxf"
+    write_holes(path, _HOLES)
+    used = used_by((*DRYCUT, "program", str(path), "-o", str(folder / "holes.3b")))
+    yield Goal(f"program of {_HOLES:,} holes", "s", "93", 20.0, used.cpu_s)
+    yield Goal(f"program of {_HOLES:,} holes, memory", "MiB", "3,600", 700.0, used.peak_mib)
+
+
 def _path(folder: Path, blocks: int) -> Path:
     path = folder / "path.3b"
     if not path.exists():
@@ -136,5 +160,5 @@ def _path(folder: Path, blocks: int) -> Path:
     return path
 
 
-PARTS = (_table, _keyhole, _small_files, _circle, beside_klipper, beside_rs274, _mends)
+PARTS = (_table, _keyhole, _small_files, _circle, beside_klipper, beside_rs274, _mends, _kerf, _holes)
 """What the table of goals is measured by, in its order: each gives one or more goals."""

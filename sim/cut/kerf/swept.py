@@ -298,12 +298,12 @@ class Kerf:
         return edges_of(self.toolpath, ~self.toolpath.is_jump, ways, self.offset_um)
 
     @cached_property
-    def left(self) -> Range:
+    def left_reach(self) -> Range:
         """How far the kerf reaches to the left of the ideal path, by block."""
         return ranges(self.edges, self.edges.left_um, len(self.toolpath))
 
     @cached_property
-    def right(self) -> Range:
+    def right_reach(self) -> Range:
         """How far it reaches to the right, by block."""
         return ranges(self.edges, self.edges.right_um, len(self.toolpath))
 

@@ -191,9 +191,9 @@ def _within(question: FreeQuestion, hung: shapely.Polygon, near: _FewNear | _Man
             low, hung = middle, after
     swept, stretch = near.swept, int(near.stretch[low])
     first, past = np.append(swept.first, len(swept.way.row))[stretch : stretch + 2].tolist()
-    beside = first + _reaching(swept.way.place_um[first:past], hung.bounds, swept.offset_um)
-    before, since = hung, int(beside[0])
-    low, high = max(first, since) - 1, int(beside[-1])
+    reaching = first + _reaching(swept.way.place_um[first:past], hung.bounds, swept.offset_um)
+    before, since = hung, int(reaching[0])
+    low, high = since - 1, int(reaching[-1])
     while high - low > 1:
         at = (low + high) // 2
         after = question.part_left(before, swept.up_to(stretch, at, since))

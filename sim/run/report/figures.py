@@ -199,7 +199,11 @@ def remains_entry(remains: Remains | None, ran_s: float) -> RemainsEntry | None:
 
 def _kerf(kerf: Kerf) -> KerfEntry:
     number = list(range(1, len(kerf.width.mean_um) + 1))
-    sides = {"left_um": _ranges(kerf.left), "right_um": _ranges(kerf.right), "width_um": _ranges(kerf.width)}
+    sides = {
+        "left_um": _ranges(kerf.left_reach),
+        "right_um": _ranges(kerf.right_reach),
+        "width_um": _ranges(kerf.width),
+    }
     return {
         "area_mm2": rounded(kerf.area_mm2),
         "blocks": rows(KerfBlockEntry, {"block": number, **sides}),

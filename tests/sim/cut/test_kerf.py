@@ -100,7 +100,7 @@ def test_no_cut_at_all_leaves_no_kerf():
     kerf = kerf_along(path)
     assert kerf.area_mm2 == 0.0
     assert kerf.region_um.is_empty
-    assert np.isnan(kerf.left.mean_um).all()
+    assert np.isnan(kerf.left_reach.mean_um).all()
 
 
 def test_edges_lie_where_the_wire_strayed_to():
@@ -113,7 +113,11 @@ def test_edges_lie_where_the_wire_strayed_to():
 
     kerf = kerf_along(path, trace_of(path, stray=stray))
     # Clockwise, the left of the path lies away from the centre.
-    for sides, at in ((kerf.left, (F + 7.0, F + 2.0)), (kerf.right, (F - 7.0, F - 2.0)), (kerf.width, (2 * F, 2 * F))):
+    for sides, at in (
+        (kerf.left_reach, (F + 7.0, F + 2.0)),
+        (kerf.right_reach, (F - 7.0, F - 2.0)),
+        (kerf.width, (2 * F, 2 * F)),
+    ):
         for value in sides:
             np.testing.assert_allclose(value, at, atol=0.05)
 
@@ -121,15 +125,15 @@ def test_edges_lie_where_the_wire_strayed_to():
 def test_the_least_and_the_greatest_width_are_told_apart():
     path = Pen().to(10_000, 0).path()
     bump = kerf_along(path, trace_of(path, stray=lambda place, row: place + [[0.0, 1.0]] * (place[:, :1] > 7000)))
-    assert bump.left.min_um[0] == pytest.approx(F, abs=0.03)
-    assert bump.left.max_um[0] == pytest.approx(F + 1.0, abs=0.03)
-    assert bump.left.mean_um[0] == pytest.approx(F + 0.3, abs=0.03)
+    assert bump.left_reach.min_um[0] == pytest.approx(F, abs=0.03)
+    assert bump.left_reach.max_um[0] == pytest.approx(F + 1.0, abs=0.03)
+    assert bump.left_reach.mean_um[0] == pytest.approx(F + 0.3, abs=0.03)
 
 
 def test_corners_do_not_count_into_the_edges_of_their_blocks():
     path = Pen().to(1000, 0).to(1000, 1000).to(0, 1000).path()
     kerf = kerf_along(path)
-    for sides in (kerf.left, kerf.right):
+    for sides in (kerf.left_reach, kerf.right_reach):
         np.testing.assert_allclose(np.stack(sides), F, atol=0.05)
 
 
