@@ -157,21 +157,30 @@ class Swept(NamedTuple):
         return numbers
 
 
-class Remade:
-    """Regions of single stretches, made where they are looked at; the last ones stay for who looks again."""
+class SweptContours:
+    """What the wire swept on each contour.
 
-    def __init__(self, swept: Swept) -> None:
-        self._swept = swept
-        self._made: dict[int, Region] = {}
+    Regions of single stretches are made where they are looked at; the last ones stay for who looks again.
 
-    def of(self, at: Ints) -> list[Region]:
-        """Regions of stretches by their indices (k,)."""
+    Attributes
+    ----------
+    swept
+        On each contour, in the order they are cut.
+    """
+
+    def __init__(self, swept: tuple[Swept, ...]) -> None:
+        self.swept = swept
+        self._made: dict[tuple[int, int], Region] = {}
+
+    def stretches(self, contour: int, at: Ints) -> list[Region]:
+        """Regions of stretches of a contour by their indices (k,)."""
         if len(self._made) > _REMADE:
             self._made.clear()
-        lacking = [each for each in at.tolist() if each not in self._made]
+        lacking = [each for each in at.tolist() if (contour, each) not in self._made]
         if lacking:
-            self._made.update(zip(lacking, self._swept.of_stretches(np.array(lacking)), strict=True))
-        return [self._made[each] for each in at.tolist()]
+            regions = self.swept[contour].of_stretches(np.array(lacking))
+            self._made.update(zip([(contour, each) for each in lacking], regions, strict=True))
+        return [self._made[contour, each] for each in at.tolist()]
 
 
 def _meet(this: Box, other: Box) -> bool:

@@ -22,7 +22,7 @@ import shapely
 from numpy.typing import NDArray
 
 from parser.geometry.curves import Floats, Ints
-from sim.cut.kerf.swept import Box, Remade, Swept
+from sim.cut.kerf.swept import Box, Swept, SweptContours
 from sim.cut.kerf.ways import last_beside
 from sim.cut.regions import Region, difference, union_all
 
@@ -109,23 +109,11 @@ def parted(stock_um: Region, kerf_um: Region) -> list[shapely.Polygon]:
     return parts
 
 
-class Ways(NamedTuple):
-    """What the wire swept on each contour, and the regions of its stretches."""
-
-    swept: tuple[Swept, ...]
-    remade: tuple[Remade, ...]
-
-
-def ways_of(swept: tuple[Swept, ...]) -> Ways:
-    """The ways of all contours."""
-    return Ways(swept, tuple(map(Remade, swept)))
-
-
-def closing_of(question: FreeQuestion, ways: Ways, contours: list[int]) -> Closing | None:
+def closing_of(question: FreeQuestion, cut: SweptContours, contours: list[int]) -> Closing | None:
     """The first moment at which the kerfs of some contours, in the order they are cut, answer the question with yes."""
     part = question.part_left(question.stock_um, shapely.Polygon())
     for contour in contours:
-        near = _near(question.box, ways, contour)
+        near = _near(question.box, cut, contour)
         after = _part_round(question, part, near.within(0, near.number))
         if question.is_free(after):
             return _within(question, part, near, FreeMoment(contour, -1, after))
@@ -167,11 +155,11 @@ class _ManyNear(NamedTuple):
         return self.swept.near(low, high, self.box)
 
 
-def _near(box: Box, ways: Ways, contour: int) -> _FewNear | _ManyNear:
-    swept = ways.swept[contour]
+def _near(box: Box, cut: SweptContours, contour: int) -> _FewNear | _ManyNear:
+    swept = cut.swept[contour]
     stretch = swept.stretches_near(box)
     if len(stretch) <= _FEW:
-        return _FewNear(swept, stretch, ways.remade[contour].of(stretch))
+        return _FewNear(swept, stretch, cut.stretches(contour, stretch))
     return _ManyNear(swept, np.arange(len(swept.first)), box)
 
 
@@ -278,7 +266,7 @@ class Cutting(NamedTuple):
         What else is left of it, p parts.
     contours
         (p,) of each: indices of the contours whose kerfs have a share in its outer edge, in order.
-    ways
+    cut
         What the wire swept on each contour.
     offset_um
         Half the width that the wire cuts.
@@ -288,7 +276,7 @@ class Cutting(NamedTuple):
     frame_um: shapely.Polygon
     parts_um: list[shapely.Polygon]
     contours: list[list[int]]
-    ways: Ways
+    cut: SweptContours
     offset_um: float
 
 
@@ -386,7 +374,7 @@ def _asked_again(cutting: Cutting, part: int, before: FreeQuestion) -> _BoxedPar
 
 
 def _boxed_part(cutting: Cutting, part: int, question: FreeQuestion) -> _BoxedPart | None:
-    closing = closing_of(question, cutting.ways, cutting.contours[part])
+    closing = closing_of(question, cutting.cut, cutting.contours[part])
     if closing is not None:
         return _BoxedPart(part, question, closing)
     return None if question.is_whole else _asked_again(cutting, part, question)

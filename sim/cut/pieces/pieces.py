@@ -7,9 +7,9 @@ import numpy as np
 import shapely
 
 from parser.toolpath import Point
-from sim.cut.kerf.swept import Kerf
+from sim.cut.kerf.swept import Kerf, SweptContours
 from sim.cut.kerf.ways import WireWay
-from sim.cut.pieces.frees import Cutting, FreeMoment, Rest, cut_on_um, moments_of, parted, ways_of
+from sim.cut.pieces.frees import Cutting, FreeMoment, Rest, cut_on_um, moments_of, parted
 from sim.cut.pieces.kinds import Bridge, Kind, Loose, bridge_of, held_after, kinds_of, older_place
 from sim.setup.obstacles import Outline
 
@@ -108,7 +108,7 @@ def pieces_of(kerf: Kerf, work_um: Outline | None, material: Material, pauses: S
     whole = [part for part in others if part.area * 1e-6 >= _CRUMB_MM2]
     kerfs = shapely.STRtree([each.region_um for each in kerf.swept])
     rounds = _rounds(kerfs, whole)
-    moments = moments_of(Cutting(stock, frame, whole, rounds, ways_of(kerf.swept), kerf.offset_um))
+    moments = moments_of(Cutting(stock, frame, whole, rounds, SweptContours(kerf.swept), kerf.offset_um))
     loosened = zip(whole, rounds, moments, strict=True)
     loose = [_loose(kerf, stock, part, round_, moment) for part, round_, moment in loosened if moment is not None]
     kinds = kinds_of(loose, kerf)
