@@ -60,6 +60,17 @@ def test_strips_are_filled_to_scale_where_that_is_seen(wrong: DryRun) -> None:
     assert area_px / px_per_um**2 == pytest.approx(200.0 * (24_000.0 + 2 * np.pi * 1100.0), rel=0.02)
 
 
+def test_strips_side_by_side_have_no_seams_between_them(wrong: DryRun) -> None:
+    """A viewer that smooths the borders of two regions leaves a seam of the ground: a line lies over each of them."""
+    calls = [call for call in drawn(wrong).drawn if call.paint is Paint.OVERCUT]
+    strips = [call.at[0] for call in calls if call.what == "region"]
+    above = calls[len(strips) : 2 * len(strips)]
+    assert len(strips) > 8
+    assert [call.what for call in calls[: len(strips)]] == ["region"] * len(strips)
+    assert [call.what for call in above] == ["polyline"] * len(strips)
+    assert all(np.array_equal(call.at, ring[[0, -1]]) for ring, call in zip(strips, above, strict=True))
+
+
 def test_what_is_too_thin_to_be_seen_is_drawn_wider_and_says_so(wrong: DryRun) -> None:
     off = off_of(wrong)
     thin = off._replace(edge_um=off.foot_um + 0.02 * (off.edge_um - off.foot_um))

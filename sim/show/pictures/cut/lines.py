@@ -273,8 +273,12 @@ def times_wider(strips: "Strips", page: Page) -> int:
 
 def draw_off(canvas: Canvas, page: Page, strips: "Strips") -> None:
     """Fill the strips, and draw the drawing beside them."""
-    for side, ring in _strips_px(strips, page.view, times_wider(strips, page)):
+    rings = list(_strips_px(strips, page.view, times_wider(strips, page)))
+    for side, ring in rings:
         canvas.polygon(ring, _PAINTS[side])
+    # A viewer blends the borders of strips with what lies beneath: without this there are seams between them.
+    for side, ring in rings:
+        canvas.polyline(ring[[0, -1]], _PAINTS[side], style.GRID_WIDTH * page.unit)
     for loop in strips.drawn:
         points, _ = flatten(loop, CHORD_PX / page.view.px_per_um)
         line = simplify(page.view.to_px(points), CHORD_PX)
