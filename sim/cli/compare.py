@@ -10,9 +10,10 @@ from sim.cli.options import (
     Offsets,
     OrRegister,
     offsets_of,
+    setting_options,
     taken_settings,
     with_dialect,
-    with_settings,
+    with_options,
 )
 from sim.cli.spoken import Spoken, spoken, words
 from sim.cli.spoken.values import FilePath
@@ -33,7 +34,7 @@ if TYPE_CHECKING:
     multiple=True,
 )
 @with_dialect
-@with_settings(DRAWING.keys)
+@with_options(setting_options(DRAWING.keys))
 @click.option("--json", "as_json", is_flag=True)
 def compare(  # noqa: PLR0913 - click hands over each option by its name
     *,

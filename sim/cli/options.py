@@ -5,7 +5,7 @@ Options that take lengths with their units, and those of settings, made from the
 Options that say what an ISO program is read with: dialect, unit, values of offset registers.
 """
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeVar
 
@@ -71,7 +71,7 @@ class Place(click.ParamType):  # type: ignore[type-arg]  # generic in newer clic
             self.fail(Message("no-place", found=value), param, ctx)
         x, y = map(length_um, parts)
         for each in (x, y):
-            number(mm(each), PLACE_MM, "--start in mm")
+            number(mm(each), PLACE_MM, f"{param.opts[0] if param else self.name} in mm")
         return Point(x, y)
 
 
@@ -126,11 +126,11 @@ _TAKING: Final[Mapping[type[ValueKind], dict[str, Any]]] = {
 }
 
 
-def with_settings(keys: Iterable[Key]) -> Callable[[Command], Command]:
-    """Give a command the options of keys."""
+def with_options(options: Sequence[Any]) -> Callable[[Command], Command]:
+    """What gives a command some options, which its help lists in their order."""
 
     def offering(command: Command) -> Command:
-        for option in reversed(setting_options(keys)):
+        for option in reversed(options):
             command = option(command)
         return command
 
@@ -265,8 +265,4 @@ READ_WITH = (click.option("--dialect", type=OwnOrNamed()), UNIT)
 """Of every command that reads programs."""
 
 
-def with_dialect(command: Command) -> Command:
-    """Give a command the options `READ_WITH`."""
-    for option in reversed(READ_WITH):
-        command = option(command)
-    return command
+with_dialect = with_options(READ_WITH)

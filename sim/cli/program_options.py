@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeVar, get_args
 import click
 
 from parser.findings.errors import Message
-from sim.cli.options import WRITTEN_IN, Length, length_um, setting_options, taken_settings
+from sim.cli.options import WRITTEN_IN, Length, length_um, setting_options, taken_settings, with_options
 from sim.cli.spoken.values import offer_machines
 from sim.setup.making import PROGRAM, SIDE_WISHES, Language
 from sim.setup.part import GAP, LAYER, THICKNESS, TOLERANCE
@@ -69,11 +69,8 @@ OPTIONS = (
 )
 
 
-def program_options(command: Command) -> Command:
-    """Give a command the options that `Options` holds."""
-    for option in reversed(OPTIONS):
-        command = option(command)
-    return command
+program_options = with_options(OPTIONS)
+"""Gives a command the options that `Options` holds."""
 
 
 class Options(NamedTuple):

@@ -15,11 +15,23 @@ import click
 
 from parser.findings.errors import ProgramError, SettingsError
 from parser.units import mm
-from sim.cli.options import READ_WITH, Lengths, OrRegister, offsets_of, setting_options, taken_settings
+from sim.cli.options import READ_WITH, Lengths, OrRegister, offsets_of, setting_options, taken_settings, with_options
 from sim.cli.spoken import spoken, words
 from sim.cli.spoken.values import FilePath, offer_machines
-from sim.setup.part import CORNERS, FIT, LAYER, SIDE, TOLERANCE
-from sim.setup.settable import SETTABLE
+from sim.setup.part import (
+    CORNERS,
+    FIT,
+    LAYER,
+    OFFSET_MM,
+    PASSES,
+    SIDE,
+    SIDES,
+    TOLERANCE,
+    DrawingTarget,
+    Offset,
+    OffsetPass,
+)
+from sim.setup.settable import SETTABLE, with_settings
 from sim.setup.toml.keys import Key
 from sim.setup.toml.reader import number
 from sim.show.terminal.finding import finding_lines
@@ -31,7 +43,6 @@ if TYPE_CHECKING:
     from parser.dialect.reader import ChosenDialect
     from sim.cli.options import RegisterSet
     from sim.setup.machine.machine import TableEngine
-    from sim.setup.part import DrawingTarget, Offset
     from sim.setup.scenario import Scenario
 
 
@@ -43,7 +54,7 @@ ENGINE_OPTION = click.option(
     type=click.Choice(["compiled", "pymunk"]),
 )
 
-HOLDING: Final = (LAYER, TOLERANCE, FIT, CORNERS)
+COMPARISON: Final = (LAYER, TOLERANCE, FIT, CORNERS)
 """How a cut is held against a drawing; ``--gap`` is the spark gap of a run."""
 _OPTIONS = (
     *READ_WITH,
@@ -68,15 +79,12 @@ _OPTIONS = (
         type=FilePath(path_type=Path, dir_okay=False),
         metavar="DXF",
     ),
-    *setting_options(HOLDING),
+    *setting_options(COMPARISON),
 )
 
 
-def scenario_options(command: Command) -> Command:
-    """Give a command the options that take the place of a scenario's own values: those of `Overrides`."""
-    for option in reversed(_OPTIONS):
-        command = option(command)
-    return command
+scenario_options = with_options(_OPTIONS)
+"""Gives a command the options that take the place of a scenario's own values: those of `Overrides`."""
 
 
 def refused(scenario: "Scenario", error: ProgramError) -> click.exceptions.Exit:
@@ -97,8 +105,8 @@ def describe(name: str, error: ProgramError) -> list[str]:
 class Overrides(NamedTuple):
     """The options as given, lengths in µm; None where an option was left out.
 
-    `settings` has those that take the place of settings, by the names of their keys (`sim.setup.settable`), `holding`
-    likewise those of `HOLDING`; `offset` has the offset of the controller, and registers that ISO programs name.
+    `settings` has those that take the place of settings, by the names of their keys (`sim.setup.settable`), and
+    `comparison` likewise those of `COMPARISON`; `offset` has the offset of the controller, and registers of ISO.
     """
 
     dialect: "ChosenDialect | None" = None
@@ -113,22 +121,19 @@ class Overrides(NamedTuple):
     kerf: bool = False
     may_stay_open: bool = False
     drawing: Path | None = None
-    holding: Mapping[str, Any] = MappingProxyType({})
+    comparison: Mapping[str, Any] = MappingProxyType({})
 
 
 def overrides_of(options: dict[str, Any]) -> Overrides:
     """The options as click hands them over."""
-    from sim.setup.settable import SETTABLE
-
     settings = taken_settings(SETTABLE.values(), options)
-    return Overrides(settings=settings, holding=taken_settings(HOLDING, options), **options)
+    return Overrides(settings=settings, comparison=taken_settings(COMPARISON, options), **options)
 
 
 def overridden(path: Path, options: Overrides) -> "Scenario":
     """Scenario of the path with the options of the command line in place of its own values."""
     from sim.setup import scenario as scenarios
     from sim.setup.machine.machine import load_machine
-    from sim.setup.settable import SETTABLE, with_settings
 
     offsets = offsets_of(options.offset)
     scenario = read_with(scenarios.load_scenario(path), options.dialect, options.unit, offsets.registers)
@@ -162,13 +167,11 @@ def read_with(
     )
 
 
-def _offset(offset: "Offset | None", by_um: tuple[float, ...] | None, side_word: str | None) -> "Offset | None":
+def _offset(offset: Offset | None, by_um: tuple[float, ...] | None, side_word: str | None) -> Offset | None:
     """The offset with the options in place of its own values. SettingsError where only half of one is known.
 
     Lengths take the place of all passes: each makes one in the program's direction, at the machine's feed.
     """
-    from sim.setup.part import OFFSET_MM, PASSES, SIDES, Offset, OffsetPass
-
     if by_um is None and side_word is None:
         return offset
     passes = offset and offset.passes
@@ -191,24 +194,22 @@ def of_options(keys: Iterable[Key], settings: Mapping[str, Any]) -> dict[str, An
 
 
 def drawing_target(
-    own: "DrawingTarget | None", drawing: Path | None, settings: Mapping[str, Any]
-) -> "DrawingTarget | None":
+    own: DrawingTarget | None, drawing: Path | None, settings: Mapping[str, Any]
+) -> DrawingTarget | None:
     """The drawing with options in place of a scenario's own values; None without a drawing.
 
     `settings` are by the names of the keys of ``[drawing]``, as they are inside.
     """
-    from sim.setup.part import DrawingTarget
-
     if drawing is not None:
         own = own._replace(file=drawing) if own is not None else DrawingTarget(drawing)
     return None if own is None else own._replace(**settings)
 
 
-def _drawing(own: "DrawingTarget | None", options: Overrides) -> "DrawingTarget | None":
+def _drawing(own: DrawingTarget | None, options: Overrides) -> DrawingTarget | None:
     """The drawing of a run. SettingsError where the options say how to hold it but not which."""
-    drawing = drawing_target(own, options.drawing, of_options(HOLDING, options.holding))
-    for key in HOLDING:
-        if drawing is None and key.name in options.holding:
+    drawing = drawing_target(own, options.drawing, of_options(COMPARISON, options.comparison))
+    for key in COMPARISON:
+        if drawing is None and key.name in options.comparison:
             raise SettingsError("option-needs-drawing", option=key.option.lstrip("-"))
     return drawing
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 import click
 
 from parser.findings.errors import Message
+from sim.cli.options import with_options
 from sim.cli.spoken.values import WholeNumber
 
 if TYPE_CHECKING:
@@ -27,11 +28,8 @@ class Spread(NamedTuple):
     scheduler: str | None
 
 
-def spread_options(command: Command) -> Command:
-    """Give a command the options of `Spread`."""
-    for option in reversed(_OPTIONS):
-        command = option(command)
-    return command
+spread_options = with_options(_OPTIONS)
+"""Gives a command the options of `Spread`."""
 
 
 @contextmanager

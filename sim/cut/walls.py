@@ -77,7 +77,7 @@ class Room(NamedTuple):
         low, high = np.minimum(low - far_um, turning_low), np.maximum(high + far_um, turning_high)
         lowest, highest = self._bounds_um()
         is_all = bool((low <= lowest).all() and (high >= highest).all())
-        return self._lines(self.walls.run_boxes.query(shapely.box(*low, *high))), is_all
+        return self._lines(np.sort(self.walls.run_boxes.query(shapely.box(*low, *high)))), is_all
 
     def ahead(self, toward_deg: Floats, far_um: float) -> tuple[BaseGeometry, bool]:
         """Walls on the way of the piece as it shifts so far in some directions (d,); whether none lies farther."""
@@ -100,7 +100,6 @@ class Room(NamedTuple):
 
     def _lines(self, near: Ints) -> BaseGeometry:
         """The walls among some runs; runs that follow each other make one line."""
-        near = np.sort(near)
         rings, of = np.unique(self.walls.runs[near, 0], return_inverse=True)
         ring, first, last = self.walls.runs[near[self._are_walls(rings)[of]]].T
         begins = np.append(True, (first[1:] != last[:-1]) | (ring[1:] != ring[:-1]))[: len(ring)]

@@ -9,7 +9,7 @@ import click
 from parser.findings.errors import Message
 from sim.check.settings.read import FAIL_ON
 from sim.cli.check.outputs import Output
-from sim.cli.options import UNIT, OwnOrNamed, RegisterValue, setting_options
+from sim.cli.options import UNIT, OwnOrNamed, RegisterValue, setting_options, with_options
 from sim.cli.spoken import Spoken, spoken
 from sim.cli.spoken.values import FilePath, offer_files, offer_machines
 from sim.cli.spread import Spread, pool_of, spread_options
@@ -103,11 +103,8 @@ _ISO = (
 )
 
 
-def check_options(command: Command) -> Command:
-    """Give a command the options of ``drycut check``."""
-    for option in reversed((*_OUTPUT, *_SELECTION, *_LISTS, *_MENDS, *_WATCH, *_DEMANDS, *_ISO)):
-        command = option(command)
-    return command
+check_options = with_options((*_OUTPUT, *_SELECTION, *_LISTS, *_MENDS, *_WATCH, *_DEMANDS, *_ISO))
+"""Gives a command the options of ``drycut check``."""
 
 
 _MODES = ("fix", "diff", "watch", "show_files", "show_settings")

@@ -46,8 +46,8 @@ class Swept(NamedTuple):
     ----------
     way
         The wire's way.
-    first
-        (s,) int64, first place of each stretch.
+    border
+        (s + 1,) int64, first place of each stretch, and one past the last place of the last one.
     is_band
         (s,) bool, whether it is swept as a band; else as a star.
     offset_um
@@ -60,7 +60,7 @@ class Swept(NamedTuple):
     """
 
     way: WireWay
-    first: Ints
+    border: Ints
     is_band: Bools
     offset_um: float
     joined: tuple[Regions, ...]
@@ -73,11 +73,11 @@ class Swept(NamedTuple):
         return whole
 
     def up_to(self, stretch: int, at: int, since: int = 0) -> Region:
-        """What is swept on a stretch from a place `since` to another, its first at least, by indices on the way."""
-        begin, place_um = max(since, int(self.first[stretch])), self.way.place_um
+        """What is swept on a stretch from its place `since`, or its first one, to `at`: both are indices on the way."""
+        begin, place_um = max(since, int(self.border[stretch])), self.way.place_um
         bounds = np.array([[begin, at + 1]])
         if not self.is_band[stretch]:
-            whole = np.append(self.first, len(self.way.row))[None, stretch : stretch + 2]
+            whole = self.border[None, stretch : stretch + 2]
             made = stars(place_um, bounds, middles(self.way, whole), self.offset_um)
         elif np.hypot(*(place_um[at] - place_um[begin])) <= self.offset_um:  # too short to tell where it leads
             made = stars(place_um, bounds, place_um[bounds[:, 0]], self.offset_um)
@@ -95,7 +95,7 @@ class Swept(NamedTuple):
         todo = [(len(self.joined), 0)]
         while todo:
             level, at = todo.pop()
-            low, high = at << _KEPT * level, min((at + 1) << _KEPT * level, len(self.first))
+            low, high = at << _KEPT * level, min((at + 1) << _KEPT * level, len(self.is_band))
             if low >= past or high <= first or not _meet(own := tuple(self.boxes[level][at].tolist()), box):
                 continue
             if level == 0:
@@ -109,7 +109,7 @@ class Swept(NamedTuple):
 
     def of_stretches(self, at: Ints) -> Regions:
         """Regions (k,) of some stretches."""
-        bounds = np.stack([self.first[at], np.append(self.first, len(self.way.row))[at + 1]], axis=1)
+        bounds = np.stack([self.border[at], self.border[at + 1]], axis=1)
         return _regions(self.way, bounds, self.is_band[at], self.offset_um)
 
     def stretches_near(self, box: Box) -> Ints:
@@ -132,7 +132,7 @@ class Swept(NamedTuple):
 
     def places_of(self, stretches: Ints) -> Ints:
         """Indices of the places on the way, in order, of stretches (k,)."""
-        first, number = self.first[stretches], self._numbers(stretches)
+        first, number = self.border[stretches], self._numbers(stretches)
         before = np.cumsum(number) - number
         places: Ints = np.arange(int(number.sum())) + np.repeat(first - before, number)
         return places
@@ -140,8 +140,7 @@ class Swept(NamedTuple):
     def chords_of(self, stretches: Ints) -> tuple[Floats, Floats]:
         """Chords (k, 2, 2) of stretches, from first to last place, and how far places lie off them at most (k,)."""
         number = self._numbers(stretches)
-        ends = np.stack([self.first[stretches], self.first[stretches] + number - 1], axis=1)
-        chord = self.way.place_um[ends]
+        chord = self.way.place_um[np.stack([self.border[stretches], self.border[stretches + 1] - 1], axis=1)]
         if not len(stretches):
             return chord, np.empty(0)
         own, by = np.repeat(np.arange(len(number)), number), chord[:, 1] - chord[:, 0]
@@ -153,7 +152,7 @@ class Swept(NamedTuple):
 
     def _numbers(self, stretches: Ints) -> Ints:
         """How many places each of some stretches has."""
-        numbers: Ints = np.append(self.first, len(self.way.row))[stretches + 1] - self.first[stretches]
+        numbers: Ints = self.border[stretches + 1] - self.border[stretches]
         return numbers
 
 
@@ -200,11 +199,11 @@ def _larger(box: Box) -> Box:
 def swept_along(curves: Curves, way: WireWay, offset_um: float) -> Swept:
     """The region that a wire with this offset sweeps on its way along the rows of some curves."""
     first, is_band = _stretches(way, _longest_um(curves, offset_um), offset_um)
-    bounds = np.stack([first, np.append(first, len(way.row))[1:]], axis=1)
-    regions = _regions(way, bounds, is_band, offset_um)
+    border = np.append(first, len(way.row))
+    regions = _regions(way, np.stack([first, border[1:]], axis=1), is_band, offset_um)
     joined = _joined(regions)
     boxes = tuple(np.asarray(shapely.bounds(level)).reshape(-1, 4) for level in (regions, *joined))
-    return Swept(way, first, is_band, offset_um, joined, boxes)
+    return Swept(way, border, is_band, offset_um, joined, boxes)
 
 
 def _regions(way: WireWay, bounds: Ints, is_band: Bools, offset_um: float) -> Regions:

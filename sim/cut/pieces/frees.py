@@ -14,7 +14,7 @@ larger box is needed to tell.
 """
 
 import heapq
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -114,62 +114,48 @@ def closing_of(question: FreeQuestion, cut: SweptContours, contours: list[int]) 
     part = question.part_left(question.stock_um, shapely.Polygon())
     for contour in contours:
         near = _near(question.box, cut, contour)
-        after = _part_round(question, part, near.within(0, near.number))
+        after = _part_round(question, part, near.within(0, len(near.stretch)))
         if question.is_free(after):
             return _within(question, part, near, FreeMoment(contour, -1, after))
         part = after
     return None
 
 
-class _FewNear(NamedTuple):
-    """The stretches of a contour that come near a box, where these are few: their indices and regions."""
+class _Near(NamedTuple):
+    """Stretches of a contour, among which are all that come near a box.
+
+    Attributes
+    ----------
+    swept
+        Of the contour.
+    stretch
+        Their indices.
+    within
+        What is swept on some of them, from a first to one past the last of `stretch`, as far as it comes near the box.
+    """
 
     swept: Swept
-    stretch: Ints
-    region: list[Region]
-
-    @property
-    def number(self) -> int:
-        """Of the stretches to choose from."""
-        return len(self.stretch)
-
-    def within(self, low: int, high: int) -> list[Region]:
-        """Regions of some of them."""
-        return self.region[low:high]
+    stretch: Sequence[int]
+    within: Callable[[int, int], list[Region]]
 
 
-class _ManyNear(NamedTuple):
-    """All stretches of a contour of which many come near a box: regions of several are there already."""
-
-    swept: Swept
-    stretch: Ints
-    box: Box
-
-    @property
-    def number(self) -> int:
-        """Of the stretches to choose from."""
-        return len(self.stretch)
-
-    def within(self, low: int, high: int) -> list[Region]:
-        """Regions that are swept on some of them, as far as they come near the box."""
-        return self.swept.near(low, high, self.box)
-
-
-def _near(box: Box, cut: SweptContours, contour: int) -> _FewNear | _ManyNear:
+def _near(box: Box, cut: SweptContours, contour: int) -> _Near:
+    """Where few come near the box, these alone; else all of the contour, of which several are joined already."""
     swept = cut.swept[contour]
-    stretch = swept.stretches_near(box)
-    if len(stretch) <= _FEW:
-        return _FewNear(swept, stretch, cut.stretches(contour, stretch))
-    return _ManyNear(swept, np.arange(len(swept.first)), box)
+    near = swept.stretches_near(box)
+    if len(near) > _FEW:
+        return _Near(swept, range(len(swept.is_band)), lambda low, past: swept.near(low, past, box))
+    regions = cut.stretches(contour, near)
+    return _Near(swept, near.tolist(), lambda low, past: regions[low:past])
 
 
 def _part_round(question: FreeQuestion, part: shapely.Polygon, kerfs: list[Region]) -> shapely.Polygon:
     return question.part_left(part, union_all(kerfs)) if kerfs else part
 
 
-def _within(question: FreeQuestion, hung: shapely.Polygon, near: _FewNear | _ManyNear, whole: FreeMoment) -> Closing:
+def _within(question: FreeQuestion, hung: shapely.Polygon, near: _Near, whole: FreeMoment) -> Closing:
     """The moment on the wire's way whose whole kerf frees the piece: halves the stretches, then the places of one."""
-    low, high, piece = 0, near.number, whole.piece_um
+    low, high, piece = 0, len(near.stretch), whole.piece_um
     while high - low > 1:
         middle = low + (1 << ((high - low - 1).bit_length() - 1))  # as the tree of the regions is halved
         after = _part_round(question, hung, near.within(low, middle))
@@ -177,8 +163,8 @@ def _within(question: FreeQuestion, hung: shapely.Polygon, near: _FewNear | _Man
             high, piece = middle, after
         else:
             low, hung = middle, after
-    swept, stretch = near.swept, int(near.stretch[low])
-    first, past = np.append(swept.first, len(swept.way.row))[stretch : stretch + 2].tolist()
+    swept, stretch = near.swept, near.stretch[low]
+    first, past = swept.border[stretch : stretch + 2].tolist()
     reaching = first + _reaching(swept.way.place_um[first:past], hung.bounds, swept.offset_um)
     before, since = hung, int(reaching[0])
     low, high = since - 1, int(reaching[-1])

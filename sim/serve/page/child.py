@@ -33,9 +33,7 @@ _STEPS: Final = 100
 """Of a stage, that are told."""
 
 
-def do(
-    jobs: Mapping[str, Callable[[PageRequest], Mapping[str, Any]]], warm_up: Callable[[], None] | None = None
-) -> None:
+def do(jobs: Mapping[str, Job], warm_up: Callable[[], None] | None = None) -> None:
     """Do the job that is asked for; the last line says what came of it.
 
     A process that was begun ahead of its job warms up first.

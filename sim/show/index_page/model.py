@@ -42,21 +42,26 @@ class FindingCountEntry(TypedDict):
     count: Ordinal
 
 
-class IndexRowEntry(TypedDict):
-    """A program, and what came of it."""
+class _ResultEntry(TypedDict):
+    """What index and page both tell of a program."""
 
     file: Text
     title: str
     title_zh: str | None
-    verdict: Annotated[str, one_of("pass", "fail", "refused", "fault")]
     to_check: bool
-    message: str | None
     findings: list[FindingCountEntry]
     time_s: Size | None
     max_um: Size | None
     drawing_um: Size | None
     folder: Text | None
     from_cache: bool
+
+
+class IndexRowEntry(_ResultEntry):
+    """A program, and what came of it."""
+
+    verdict: Annotated[str, one_of("pass", "fail", "refused", "fault")]
+    message: str | None
 
 
 class IndexDocument(TypedDict):
@@ -86,23 +91,17 @@ VerdictName = Annotated[str, one_of("pass", "to-check", "incomplete", "fail", "r
 """Verdict of a program as people are told it; a check alone may be incomplete."""
 
 
-class ProgramEntry(TypedDict):
-    """A program as the page has it; what its run tells is null where there is none."""
+class ProgramEntry(_ResultEntry):
+    """A program as the page has it; what its run tells is null where there is none.
 
-    file: str
-    title: str
-    title_zh: Annotated[str | None, "in Chinese, where that is another one"]
+    `title_zh` is there where that is another one, findings have the worst first. `drawing_um` is how far the cut is off
+    the drawing that it was held against, `folder` that of its files, beside the page.
+    """
+
     verdict: VerdictName
     message: Annotated[SaidEntry | None, "why there is no report"]
-    findings: Annotated[list[FindingCountEntry], "the worst first"]
-    to_check: bool
-    time_s: float | None
     time: Annotated[str, "in hours, minutes and seconds; empty where nothing ran"]
-    max_um: float | None
-    drawing_um: Annotated[float | None, "deviation from the drawing, where it was held against one"]
     worst_um: Annotated[float | None, "that from the drawing, else that of the wire"]
-    folder: Annotated[str | None, "of its files, beside the page"]
-    from_cache: bool
     picture: Annotated[str, "data of an SVG path"]
 
 

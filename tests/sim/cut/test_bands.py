@@ -69,7 +69,7 @@ def test_what_is_swept_up_to_a_place_is_the_union_of_the_discs_so_far() -> None:
     first, row = np.zeros(1, dtype=np.int64), np.zeros(1001, dtype=np.int64)
     assert are_straight(place, first).all()
     assert not are_straight(place[:502], first).any()
-    swept = Swept(WireWay(place, along, along, row), first, np.array([True]), F, (), ())
+    swept = Swept(WireWay(place, along, along, row), np.array([0, 1001]), np.array([True]), F, (), ())
     for at in (0, 1, 20, 34, 100, 501, 700, 1000):
         discs = shapely.union_all(shapely.buffer(shapely.points(place[: at + 1]), F, quad_segs=64))
         region = swept.up_to(0, at)
@@ -92,5 +92,5 @@ def test_both_ways_of_sweeping_give_one_kerf(monkeypatch: pytest.MonkeyPatch) ->
     assert not by_stars.swept[0].is_band.any()
     apart = shapely.hausdorff_distance(by_bands.region_um.boundary, by_stars.region_um.boundary, densify=0.1)
     assert apart <= 2.0 * OFF_UM
-    assert len(by_bands.swept[0].first) < len(by_stars.swept[0].first) / 4
+    assert len(by_bands.swept[0].is_band) < len(by_stars.swept[0].is_band) / 4
     assert shapely.get_num_coordinates(by_bands.region_um) < shapely.get_num_coordinates(by_stars.region_um) / 4

@@ -133,7 +133,9 @@ def test_options_take_the_place_of_the_scenarios_values(tmp_path: Path) -> None:
         False,
         DrawingTarget(tmp_path / "a.dxf", "CUT"),
     )
-    other = NONE._replace(side="right", kerf=True, drawing=Path("b.dxf"), holding={"tolerance_um": 2.0, "fit": False})
+    other = NONE._replace(
+        side="right", kerf=True, drawing=Path("b.dxf"), comparison={"tolerance_um": 2.0, "fit": False}
+    )
     scenario = overridden(folder, other)
     assert scenario.offset == Offset((OffsetPass(100.0),), Side.RIGHT)
     assert scenario.kerf
@@ -157,10 +159,10 @@ def test_options_take_the_place_of_the_scenarios_values(tmp_path: Path) -> None:
             NONE._replace(side="left", offset=((100.0,) * 21,)),
             "--offset: the number of passes is 21; it must lie between 1",
         ),
-        (NONE._replace(holding={"layer": "CUT"}), "--layer needs --drawing"),
-        (NONE._replace(holding={"tolerance_um": 5.0}), "--tolerance needs --drawing"),
-        (NONE._replace(holding={"fit": False}), "--no-fit needs --drawing"),
-        (NONE._replace(drawing=Path("a.dxf"), holding={"tolerance_um": 0.0}), "--tolerance in µm is 0"),
+        (NONE._replace(comparison={"layer": "CUT"}), "--layer needs --drawing"),
+        (NONE._replace(comparison={"tolerance_um": 5.0}), "--tolerance needs --drawing"),
+        (NONE._replace(comparison={"fit": False}), "--no-fit needs --drawing"),
+        (NONE._replace(drawing=Path("a.dxf"), comparison={"tolerance_um": 0.0}), "--tolerance in µm is 0"),
     ],
 )
 def test_half_an_option_is_refused(tmp_path: Path, options: Overrides, complaint: str) -> None:

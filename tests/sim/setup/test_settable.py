@@ -11,7 +11,7 @@ from command import run_inside
 from parser.findings.errors import SettingsError
 from sim.cli.options import parameter
 from sim.cli.program_options import making_of, options_of, program_options, writing_of
-from sim.cli.scenario_options import HOLDING, overridden, overrides_of
+from sim.cli.scenario_options import COMPARISON, overridden, overrides_of
 from sim.serve.page.form import scenario_of
 from sim.serve.page.runs import KEYS
 from sim.setup import making
@@ -23,7 +23,7 @@ from sim.setup.toml.kinds import Number
 from sim.show.open_page.page import open_page
 
 ROWS = pytest.mark.parametrize("path", SETTABLE)
-NOTHING = {parameter(key): None for key in (*SETTABLE.values(), *HOLDING)}
+NOTHING = {parameter(key): None for key in (*SETTABLE.values(), *COMPARISON)}
 PROGRAM = Path("part.3b")
 
 

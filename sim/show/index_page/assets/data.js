@@ -17,22 +17,24 @@ import { element } from "../../html/assets/elements.js";
  */
 
 /**
- * A program as the page has it; what its run tells is null where there is none.
+ * A program as the page has it; what its run tells is null where there is none. `title_zh` is there where that is
+ * another one, findings have the worst first. `drawing_um` is how far the cut is off the drawing that it was held
+ * against, `folder` that of its files, beside the page.
  * @typedef {object} Program
  * @property {string} file
  * @property {string} title
- * @property {string | null} title_zh in Chinese, where that is another one
+ * @property {string | null} title_zh
+ * @property {boolean} to_check
+ * @property {FindingCount[]} findings
+ * @property {number | null} time_s
+ * @property {number | null} max_um
+ * @property {number | null} drawing_um
+ * @property {string | null} folder
+ * @property {boolean} from_cache
  * @property {"pass" | "to-check" | "incomplete" | "fail" | "refused" | "fault"} verdict
  * @property {Said | null} message why there is no report
- * @property {FindingCount[]} findings the worst first
- * @property {boolean} to_check
- * @property {number | null} time_s
  * @property {string} time in hours, minutes and seconds; empty where nothing ran
- * @property {number | null} max_um
- * @property {number | null} drawing_um deviation from the drawing, where it was held against one
  * @property {number | null} worst_um that from the drawing, else that of the wire
- * @property {string | null} folder of its files, beside the page
- * @property {boolean} from_cache
  * @property {string} picture data of an SVG path
  */
 
