@@ -49,6 +49,23 @@ def test_what_failed_stands_first_with_how_far_it_is_off_the_drawing(open_page: 
     assert head["height"] < 70.0, "one line, and the unit below"
 
 
+@pytest.mark.parametrize("lang", ["en", "zh"])
+def test_no_word_of_the_head_is_broken_where_a_long_message_takes_room(open_page: OpenPage, lang: str) -> None:
+    refused = entry(3)
+    refused = refused._replace(
+        row=refused.row._replace(message=same("文件里没有程序段；控制器读不进去，或读入后没有动作" * 4))
+    )
+    entries = [entry(0), entry(2), refused]
+    additions = [BesideTheIndex(each.row.picture, each.row.message) for each in entries]
+    shown = open_page(index_page(build_index(entries), additions), lang=lang, shipped_font=True).page
+    lines = shown.evaluate(
+        """() => [...document.querySelectorAll("thead th span")].filter((span) => !span.children.length)
+          .map((span) => [...span.getClientRects()].length).filter(Boolean)"""
+    )
+    assert lines == [1] * len(lines)
+    assert len(lines) > 5
+
+
 def test_links_lead_to_the_files_of_each_program(open_page: OpenPage) -> None:
     shown = open_page(shop_page(8)).page
     assert shown.locator("a.file").first.get_attribute("href") == "00/part%20%232%25.3b/report.html"
