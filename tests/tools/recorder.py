@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 from parser.geometry.curves import Floats
 from sim.show.draw.layout import Box
-from sim.show.draw.letters import Letters
+from sim.show.draw.letters import text_width
 from sim.show.draw.sheet import Sheet
 from sim.show.draw.style import LIGHT, Paint, Theme
 
@@ -26,7 +26,6 @@ class Recorder:
     def __init__(self, width_px: int, height_px: int, theme: Theme = LIGHT) -> None:
         self.width_px, self.height_px = width_px, height_px
         self.drawn: list[Drawn] = []
-        self._letters = Letters()
 
     def polyline(self, points: Floats, paint: Paint, width: float) -> None:
         self.drawn.append(Drawn("polyline", paint, points, (width,)))
@@ -60,7 +59,7 @@ class Recorder:
         self.drawn.append(Drawn("text", paint, at, (text, size, align)))
 
     def text_width(self, text: str, size: float) -> float:
-        return self._letters.width(text, size)
+        return text_width(text, size)
 
     def of(self, what: str, paint: Paint | None = None) -> list[Drawn]:
         """Calls of a kind, and of a paint where one is given."""

@@ -13,7 +13,7 @@ from parser.geometry.curves import Floats
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.layout import Box, Page, mm_text, nice_below, ticks
-from sim.show.draw.letters import Letters
+from sim.show.draw.letters import text_width
 from sim.show.draw.style import Paint
 
 
@@ -141,11 +141,11 @@ USUAL: Final = LegendSizes()
 
 def in_rows(entries: Sequence[Entry], width_px: float, unit: float, sizes: LegendSizes = USUAL) -> Legend:
     """Lay out entries in rows from the left of a page, each as full as its width allows, with both edges free."""
-    letters, edge = Letters(), style.EDGE * unit
+    edge = style.EDGE * unit
     placed: list[_Placed] = []
     row, left = 0, edge
     for entry in entries:
-        wide = _width(letters, entry, unit, sizes)
+        wide = _width(entry, unit, sizes)
         if left > edge and left + wide > width_px - edge:
             row, left = row + 1, edge
         placed.append(_Placed(entry, row, left, np.inf))
@@ -157,9 +157,9 @@ def in_columns(
     entries: Sequence[Entry], number: int, width_px: float, unit: float, sizes: LegendSizes = USUAL
 ) -> Legend:
     """Lay out entries in up to `number` columns that fill a width; texts that have no room there lose their middle."""
-    letters, rows = Letters(), rows_in_columns(len(entries), number)
+    rows = rows_in_columns(len(entries), number)
     columns = [entries[first : first + rows] for first in range(0, len(entries), max(rows, 1))]
-    widths = [max(_width(letters, entry, unit, sizes) + 1.0 for entry in column) for column in columns]
+    widths = [max(_width(entry, unit, sizes) + 1.0 for entry in column) for column in columns]
     apart = (width_px - sum(widths)) / max(len(columns), 1)
     if apart < style.LEGEND_GAP * unit:
         apart = style.LEGEND_GAP * unit
@@ -178,10 +178,10 @@ def rows_in_columns(entries: int, number: int) -> int:
     return -(-entries // number)
 
 
-def _width(letters: Letters, entry: Entry, unit: float, sizes: LegendSizes) -> float:
+def _width(entry: Entry, unit: float, sizes: LegendSizes) -> float:
     """Width of an entry, px: its sample, its text, and what lies between."""
     sample = (entry.width * sizes.sample + style.LEGEND_GAP) * unit
-    return sample + letters.width(entry.text, sizes.text * unit)
+    return sample + text_width(entry.text, sizes.text * unit)
 
 
 def draw_legend(canvas: Canvas, legend: Legend, left: float, top: float) -> None:

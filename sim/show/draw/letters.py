@@ -1,28 +1,41 @@
-"""The shipped font, at any size: what backends write with, and how wide a text is."""
+"""How wide a text is in the shipped font, by the widths and the kerning that stand beside it: no font is loaded."""
 
-from typing import Final
+import json
+from functools import cache
+from itertools import pairwise
+from pathlib import Path
+from typing import Final, NamedTuple
 
 from sim.show.draw import style
-from sim.show.draw.silent_pygame import pygame
 
-MEASURED_AT: Final = 3
-"""Texts are measured at so many times their size, because the font rounds widths to whole pixels."""
+METRICS: Final = Path(style.FONT).with_name("metrics.json")
+"""Of the font, in its own units; `tests/tools/font_metrics.py` writes them."""
 
 
-class Letters:
-    """The font, with the sizes that were asked for kept; sizes are px."""
+class _Metrics(NamedTuple):
+    """Widths of letters and what lies between them, in parts of a size; most letters are `usual` wide, and Chinese."""
 
-    def __init__(self) -> None:
-        pygame.font.init()
-        self._fonts: dict[int, pygame.font.Font] = {}
+    usual: float
+    advances: dict[str, float]
+    kerning: dict[tuple[str, str], float]
 
-    def at(self, size: float) -> pygame.font.Font:
-        """The font at a size, rounded to a whole one."""
-        whole = max(round(size), 1)
-        if whole not in self._fonts:
-            self._fonts[whole] = pygame.font.Font(style.FONT, whole)
-        return self._fonts[whole]
 
-    def width(self, text: str, size: float) -> float:
-        """Width of a text."""
-        return self.at(size * MEASURED_AT).size(text)[0] / MEASURED_AT
+def text_width(text: str, size: float) -> float:
+    """Width of a line of text, in the unit of its size (the em): the sum of its advances, and of its kerning.
+
+    That is the width at any size; in pixels a font rounds each letter, which makes up to one part in a hundred.
+    """
+    metrics = _metrics()
+    advances = sum(metrics.advances.get(letter, metrics.usual) for letter in text)
+    return size * (advances + sum(metrics.kerning.get(pair, 0.0) for pair in pairwise(text)))
+
+
+@cache
+def _metrics() -> _Metrics:
+    stored = json.loads(METRICS.read_text("utf-8"))
+    em = stored["units_per_em"]
+    return _Metrics(
+        stored["usual"] / em,
+        {letter: width / em for letter, width in stored["advances"].items()},
+        {(left, right): by / em for left, row in stored["kerning"].items() for right, by in row.items()},
+    )

@@ -6,6 +6,7 @@ every edge.
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from functools import cache
 from typing import Final
 
 import numpy as np
@@ -13,9 +14,10 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from parser.geometry.curves import Floats
+from sim.show.draw import style
 from sim.show.draw.canvas import arrow_head, dashes
 from sim.show.draw.layout import Box
-from sim.show.draw.letters import Letters
+from sim.show.draw.letters import text_width
 from sim.show.draw.silent_pygame import pygame
 from sim.show.draw.style import LIGHT, Paint, Theme
 
@@ -31,7 +33,7 @@ class Raster:
 
     def __init__(self, width_px: int, height_px: int, theme: Theme = LIGHT) -> None:
         self.width_px, self.height_px = width_px, height_px
-        self._theme, self._letters = theme, Letters()
+        self._theme = theme
         self._scale = FINEST if width_px <= COARSER_FROM_PX else FINEST - 1
         self._surface = pygame.Surface((width_px * self._scale, height_px * self._scale), depth=24)
         self._surface.fill(theme[Paint.PAGE])
@@ -130,13 +132,13 @@ class Raster:
 
     def text(self, at: tuple[float, float], text: str, size: float, paint: Paint, align: float = 0.0) -> None:
         """Write a line, vertically centred on `at`; `align` of its width lies to the left of `at`."""
-        image = self._letters.at(size * self._scale).render(text, True, self._theme[paint])
+        image = _font(size * self._scale).render(text, True, self._theme[paint])
         left = at[0] * self._scale - align * image.get_width()
         self._surface.blit(image, (round(left), round(at[1] * self._scale - image.get_height() / 2)))
 
     def text_width(self, text: str, size: float) -> float:
         """Width that `text` takes, px."""
-        return self._letters.width(text, size)
+        return text_width(text, size)
 
     def image(self) -> Image.Image:
         """Give the page as an RGB picture."""
@@ -147,6 +149,17 @@ class Raster:
             pixels = Image.frombytes("RGB", (wide, tall), pygame.image.tobytes(band, "RGB"))
             made.paste(pixels.reduce(self._scale), (0, top))
         return made
+
+
+def _font(size: float) -> pygame.font.Font:
+    """The shipped font at a size, px, rounded to a whole one."""
+    return _font_at(max(round(size), 1))
+
+
+@cache
+def _font_at(size_px: int) -> pygame.font.Font:
+    pygame.font.init()
+    return pygame.font.Font(style.FONT, size_px)
 
 
 def _normals(points: Floats) -> Floats:

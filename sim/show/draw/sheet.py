@@ -2,16 +2,18 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Final, Generic, TypeVar
+from typing import TYPE_CHECKING, Final, Generic, TypeVar
 
 from parser.findings.catalogue import Language
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.layout import unit_of
-from sim.show.draw.raster import Raster
 from sim.show.draw.style import LIGHT, Theme
 from sim.show.draw.svg import Svg
 from sim.show.texts import Words
+
+if TYPE_CHECKING:
+    from sim.show.draw.raster import Raster
 
 AnyCanvas = TypeVar("AnyCanvas", bound=Canvas)
 
@@ -53,8 +55,10 @@ class Sheet(Generic[AnyCanvas]):
         return Words(self.language)
 
 
-def pixels(width_px: int = style.BASE_WIDTH, theme: Theme = LIGHT, language: Language = "en") -> Sheet[Raster]:
+def pixels(width_px: int = style.BASE_WIDTH, theme: Theme = LIGHT, language: Language = "en") -> "Sheet[Raster]":
     """A sheet that becomes a picture of pixels."""
+    from sim.show.draw.raster import Raster  # noqa: PLC0415 - SVG needs no pygame
+
     return Sheet(Raster, width_px, theme, language)
 
 

@@ -14,7 +14,7 @@ from parser.geometry.curves import Floats
 from sim.show.draw.canvas import arrow_head, dashes
 from sim.show.draw.flatten import CHORD_PX, simplify
 from sim.show.draw.layout import Box
-from sim.show.draw.letters import Letters
+from sim.show.draw.letters import text_width
 from sim.show.draw.style import LIGHT, Paint, Theme, hexadecimal
 
 
@@ -50,7 +50,7 @@ class Svg:
 
     def __init__(self, width_px: int, height_px: int, theme: Theme = LIGHT) -> None:
         self.width_px, self.height_px = width_px, height_px
-        self._theme, self._letters = theme, Letters()
+        self._theme = theme
         self._made: list[str] = []
         self._strokes: dict[str, list[str]] = {}  # path data by attributes: those that were stroked last
         self._rect(Box(0.0, 0.0, width_px, height_px), Paint.PAGE)
@@ -111,7 +111,7 @@ class Svg:
 
     def text_width(self, text: str, size: float) -> float:
         """Width that `text` takes, px."""
-        return self._letters.width(text, size)
+        return text_width(text, size)
 
     def fragment(self, label: str) -> str:
         """The picture as an element of a page, with a label for those who cannot see it."""

@@ -2,18 +2,18 @@
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import NamedTuple
-
-from PIL import Image, ImageOps
+from typing import TYPE_CHECKING, NamedTuple
 
 from parser.findings.catalogue import Language
 from parser.findings.errors import SettingsError
 from sim.base.files import staged
-from sim.show.draw.raster import Raster
 from sim.show.draw.sheet import Sheet, drawing, pixels
 from sim.show.draw.style import THEMES, ThemeName
 from sim.show.draw.svg import Svg
 from sim.show.pictures.shown import Drawable, label
+
+if TYPE_CHECKING:
+    from sim.show.draw.raster import Raster
 
 DPI = 300
 """At which the named sizes are paper sizes."""
@@ -58,8 +58,10 @@ def _write_svg(file: Path, name: str, drawable: Drawable, sheet: Sheet[Svg], wid
     return svg is not None
 
 
-def _write_pixels(file: Path, name: str, drawable: Drawable, sheet: Sheet[Raster], width_px: int) -> bool:
+def _write_pixels(file: Path, name: str, drawable: Drawable, sheet: "Sheet[Raster]", width_px: int) -> bool:
     """Write a picture as PNG, made smaller to `width_px` where it is wider; False where there is none."""
+    from PIL import Image, ImageOps  # noqa: PLC0415 - SVG needs no pillow
+
     raster = drawable.draw(name, sheet)
     if raster is not None:
         image = ImageOps.contain(raster.image(), (width_px, raster.height_px), Image.Resampling.LANCZOS)

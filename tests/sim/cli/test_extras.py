@@ -63,6 +63,7 @@ def shop(tmp_path: Path) -> Path:
         (0, ("convert", "part.3b", "-o", "x.iso")),
         (0, ("example", "keyhole", "-o", "x")),
         (0, ("dialect", "test", "part.iso", "--dialect", "fanuc")),
+        (0, ("draw", "part.3b", "-o", "x.svg", "--lang", "zh", "--theme", "dark")),
     ],
     ids=lambda of: of[0] if isinstance(of, tuple) else str(of),
 )
@@ -96,7 +97,7 @@ def test_what_is_missing_is_said_with_the_command_that_brings_it(
     assert not list(shop.glob("x*"))
 
 
-@pytest.mark.parametrize("arguments", [("run", "part.3b", "-o", "out"), ("draw", "part.3b", "-o", "x.svg")])
+@pytest.mark.parametrize("arguments", [("run", "part.3b", "-o", "out"), ("draw", "part.3b", "-o", "x.png")])
 def test_a_run_needs_its_own_extra_alone(shop: Path, arguments: tuple[str, ...]) -> None:
     code, _, err = drycut(shop, *arguments, extra="run")
     assert (code, err.count("error:")) == (0, 0), err

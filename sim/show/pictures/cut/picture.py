@@ -20,12 +20,8 @@ from sim.show.draw.sheet import AnyCanvas, Sheet
 from sim.show.draw.style import Paint
 from sim.show.pictures.cut.legend import Drawn, Surroundings, draw_legends, entries, finding_entries, rows_for
 from sim.show.pictures.cut.lines import (
-    Areas,
     Lines,
-    areas_of,
-    draw_areas,
     draw_kerf,
-    draw_labels,
     draw_lines,
     draw_off,
     lines_of,
@@ -49,6 +45,7 @@ from sim.show.texts import Words
 if TYPE_CHECKING:
     from sim.cut.sizes import Sizes
     from sim.measure.compare.result import Comparison, OffSizes, Strips
+    from sim.show.pictures.cut.areas import Areas
 
 
 class Shapes:
@@ -87,10 +84,12 @@ class Shapes:
             self._off_sizes = off_sizes(strips, sizes)
         return self._off_sizes
 
-    def areas(self, cut: Cut, view: View) -> Areas:
-        """The areas of the pieces of the cut in a view; none where no pieces are known."""
+    def areas(self, cut: Cut, view: View) -> "Areas | None":
+        """The areas of the pieces of the cut in a view; None where no pieces are known."""
         if cut.pieces is None:
-            return Areas([], [])
+            return None
+        from sim.show.pictures.cut.areas import areas_of  # noqa: PLC0415 - of a path no pieces are known
+
         if view not in self._areas:
             self._areas[view] = areas_of(cut.pieces, view)
         return self._areas[view]
@@ -246,9 +245,12 @@ def _draw_cut_lines(canvas: Canvas, page: Page, cut: Cut, lines: Lines, kerf_wid
     draw_lines(canvas, page.unit, lines)
 
 
-def _draw_below(canvas: Canvas, page: Page, cut: Cut, areas: Areas) -> None:
+def _draw_below(canvas: Canvas, page: Page, cut: Cut, areas: "Areas | None") -> None:
     draw_bodies(canvas, page, cut.bodies)
-    draw_areas(canvas, page.unit, areas)
+    if areas is not None:
+        from sim.show.pictures.cut.areas import draw_areas  # noqa: PLC0415 - of a path no pieces are known
+
+        draw_areas(canvas, page.unit, areas)
 
 
 def _room(page: Page, lines: Lines, sized: list[Floats], taken: list[Box]) -> Room:
@@ -264,6 +266,8 @@ def _draw_above(board: Board, cut: Cut, layout: CutLayout) -> Drawn:
     draw_arrows(board, cut.toolpath)
     numbers = draw_numbers(board, cut.toolpath, layout.seen.kerf_px)
     if cut.pieces is not None:
+        from sim.show.pictures.cut.areas import draw_labels  # noqa: PLC0415 - of a path no pieces are known
+
         draw_labels(board, cut.toolpath, cut.pieces)
     draw_rounds(board, layout.sizes)
     return Drawn(numbers.text(board.say), paused)

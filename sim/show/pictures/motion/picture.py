@@ -20,7 +20,7 @@ from sim.show.draw.chart import AxisRange, Chart, draw_band, draw_chart, draw_le
 from sim.show.draw.flatten import CHORD_PX, simplify
 from sim.show.draw.layout import Box, number_stride
 from sim.show.draw.legend import Entry, Legend, LegendSizes, draw_header, draw_legend, in_rows, middle
-from sim.show.draw.letters import Letters
+from sim.show.draw.letters import text_width
 from sim.show.draw.sheet import AnyCanvas, Sheet
 from sim.show.draw.style import Paint
 from sim.show.pictures.motion.panels import (
@@ -116,7 +116,7 @@ def legend_of(run: DryRun, marks: list[TimeMark], say: Words, width_px: int, uni
 
 def _share(sign: str, unit: float) -> float:
     """Width of the sample of a sign, of the usual one: no less than that."""
-    return max(1.0, Letters().width(sign, style.NUMBER * unit) / (SIZES.sample * unit))
+    return max(1.0, text_width(sign, style.NUMBER * unit) / (SIZES.sample * unit))
 
 
 def _kinds(marks: list[TimeMark]) -> list[tuple[str, tuple[str, Paint]]]:
