@@ -7,7 +7,10 @@ from fuzzing import iso_text, program_text
 from fuzzing.ran import answer_of, broken_by, leftovers, ran
 from fuzzing.target import Input, Judged
 from parser.findings.codes import Severity
+from parser.findings.findings import telling
+from sim.check.closures import OpenContour
 from sim.check.file_check import Job, check_file
+from sim.check.result import CheckResult
 from sim.check.settings import CheckSettings
 
 _REGISTERS = ("--offset", "D0=0.1mm", "--offset", "D1=0.05mm", "--offset", "D11=0.1mm")
@@ -36,7 +39,7 @@ def make(rng: random.Random) -> Input:
 
 
 def judge(data: Input, number: int, folder: Path) -> Judged:
-    """What is written is a program without an error; where nothing is proved, nothing is written."""
+    """What is written is proved: it has no error, and is open only where its source is or the command says so."""
     assert isinstance(data, bytes)
     (folder / "given").write_bytes(data)
     name, *options = _OPTIONS[number % len(_OPTIONS)]
@@ -46,14 +49,24 @@ def judge(data: Input, number: int, folder: Path) -> Judged:
     if written.exists() != (not done.returncode):
         broken.append(f"exit {done.returncode} {'with' if written.exists() else 'without'} a file")
     if written.exists():
-        broken += _of_written(written.read_bytes(), name)
+        is_open = _is_open(data) or b"check will call it open" in b" ".join(done.stdout.split())
+        broken += _of_written(written.read_bytes(), name, may_stay_open=is_open)
     answer = answer_of(done, folder) + (repr(written.read_bytes()) if written.exists() else "")
     return Judged(answer, broken, f"exit {done.returncode or 0}")
 
 
-def _of_written(data: bytes, name: str) -> list[str]:
+def _is_open(data: bytes) -> bool:
+    """Whether a contour of the source stays open: one that does has a path all the same, and is converted."""
+    return bool(list(telling(_checked("given", data).findings, OpenContour)))
+
+
+def _of_written(data: bytes, name: str, *, may_stay_open: bool) -> list[str]:
     """What is wrong with a program that was written."""
-    known = (("D0", 100.0), ("D1", 50.0), ("D11", 100.0))
-    result = check_file(Job(name, data, CheckSettings(registers=known)))
+    result = _checked(name, data, may_stay_open=may_stay_open)
     errors = {found.code for found in result.findings if found.severity is Severity.ERROR}
     return [f"writes a program with {' '.join(sorted(errors))}"] if errors else []
+
+
+def _checked(name: str, data: bytes, *, may_stay_open: bool = False) -> CheckResult:
+    known = (("D0", 100.0), ("D1", 50.0), ("D11", 100.0))
+    return check_file(Job(name, data, CheckSettings(registers=known, may_stay_open=may_stay_open)))
