@@ -6,7 +6,7 @@ READY := .venv/.ready
 # Tests start hundreds of processes: each would compile again all that it imports, and each core all tests.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: demo test suite deep lint style types imports scripts browser bench steps mutate survivors fuzz golden pages lock release clean
+.PHONY: demo test suite deep lint style types imports scripts browser bench steps mutate survivors fuzz guided golden pages lock release clean
 
 demo: $(READY)
 	$(BIN)/drycut run scenarios/keyhole -o out/keyhole
@@ -69,6 +69,11 @@ survivors: $(READY)
 # Promises that hold for any input, on a million inputs of all kinds; and the time of programs bad on purpose.
 fuzz: $(READY)
 	PYTHONPATH=. $(BIN)/python tests/tools/fuzz.py --inputs 1000000 --hostile
+
+# The same promises on inputs that reach code which none before them reached: ten minutes for each kind of input.
+guided: $(READY)
+	$(BIN)/pip install --quiet "atheris>=3.0"  # has wheels for Linux and macOS
+	PYTHONPATH=. $(BIN)/python tests/tools/guided_fuzz.py
 
 # Renew the golden pictures that no longer fit, after looking at the new ones.
 golden: browser

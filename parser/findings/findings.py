@@ -125,9 +125,12 @@ def counted(findings: Iterable[Finding]) -> tuple[Count, ...]:
 
 
 def compatible(edits: Iterable[Edit]) -> tuple[Edit, ...]:
-    """Edits in the order of their places; of two that touch the same characters the first counts."""
+    """Edits in the order of their places; of two that touch the same characters the first counts.
+
+    What begins a line stands behind what ends the one before it at the same place.
+    """
     chosen: list[Edit] = []
-    for edit in sorted(set(edits)):
+    for edit in sorted(set(edits), key=lambda edit: (edit.first, edit.past, edit.text[:1] in {"\r", "\n"}, edit.text)):
         if not chosen or edit.first >= chosen[-1].past:
             chosen.append(edit)
     return tuple(chosen)

@@ -104,10 +104,10 @@ def _mains(read: Text) -> list[Buffer]:
 
 
 def _reading(read: Text, state: State, toolpath: Toolpath, damages: tuple[Damage, ...]) -> Reading:
-    rows, blocks = len(toolpath), int(toolpath.source.block.max())
+    blocks = int(toolpath.source.block.max())  # each moves once at least, and many times in a loop or a routine
     return Reading(
         dialect="PMAC",
-        counts=BlockCounts(blocks + len(damages), blocks, rows),
+        counts=BlockCounts(blocks + len(damages), blocks, blocks),
         damages=damages,
         spelling=Spelling(clockwise="CIRCLE1", counter_clockwise="CIRCLE2", end="CLOSE", pause="STOP", rapid="RAPID"),
         is_drawing=False,

@@ -66,6 +66,11 @@ def decode_text(data: bytes) -> tuple[str, str]:
     return text, encoding
 
 
+def written_end(text: str) -> int:
+    """Where what is written ends: DOS ends a text with ^Z, and fills its last sector with NUL."""
+    return len(text.rstrip("\x1a\0"))
+
+
 def encode_text(text: str, encoding: str) -> bytes:
     """Bytes of a text in an encoding that `decode_text` named, with the BOM that it stood behind."""
     bom = _BOMS.get(encoding, b"")

@@ -21,6 +21,7 @@ from parser.findings.findings import (
 from parser.program import Program
 from parser.shape.contours import Contour
 from parser.shape.loops import is_circle
+from parser.text.encoding import written_end
 from parser.text.source import LINE_END, Field
 from sim.check.blame.settle import MOST_PRINTED, WrongWord
 from sim.check.closures import OpenContour, Suspected, WrongAxis
@@ -135,7 +136,7 @@ class _Mends:
         text, reading = self._program.text, self._program.reading
         if any(damage.after >= reading.counts.run for damage in reading.damages):
             return ()
-        at = len(text.rstrip("\x1a\0"))  # DOS ends a text with ^Z, and fills its last sector with NUL
+        at = written_end(text)
         match = LINE_END.search(text)
         newline, end = match[0] if match else "\n", reading.spelling.end
         return (Edit(at, at, f"{end}{newline}" if text[:at].endswith(("\r", "\n")) else f"{newline}{end}"),)

@@ -28,7 +28,7 @@ SHIPPED = {
     *("parser/iso/profiles/profile.py", "parser/write/iso.py", "parser/drawing/dxf/document.py"),
     *("controller/compiled/loops.py", "sim/base/workers/rounds.py"),  # our own modules
     "sim/check/own_checks.py",  # which distributions offer checks
-    "sim/serve/page/shortcut.py",  # its icon
+    *("sim/serve/page/shortcut.py", "sim/show/draw/letters.py"),  # its icon, and how wide the letters of the font are
     *("controller/card/abi/table.py", "sim/clients/library.py"),  # C that libraries are made of
 }
 """Modules that read files which drycut brings along, or its own documents."""

@@ -10,6 +10,7 @@ from parser.geometry.curves import Ints
 from parser.iso.listing.listing import Listing
 from parser.iso.path.flow import Flow, GivenColumns, idle
 from parser.iso.path.places import SET_PLACE, Places, bare_place
+from parser.text.encoding import written_end
 from parser.text.source import Span
 
 _INK = re.compile(r"[^\s%\x00-\x1f][^\r\n]*")
@@ -35,6 +36,7 @@ def _without_end(listing: Listing, run: Flow) -> Iterator[Finding]:
     last = int(run.block[-1])
     line = int(listing.blocks.line[last])
     _, past = listing.lines.bounds(line)
+    past = min(past, written_end(listing.text))
     newline = "\r\n" if "\r\n" in listing.text else "\n"
     is_certain = run.left == "text" and not run.faults and past <= listing.tape_end
     edits = (Edit(past, past, f"{newline}M02"),) if is_certain else ()
@@ -97,12 +99,16 @@ def _named_places(given: GivenColumns, run: Flow, place: Places) -> Iterator[Fin
 
 
 def _bare_places(given: GivenColumns, run: Flow) -> Iterator[Finding]:
-    """ISO113: a G92 that names no place, with the place that it was taken for as its mend, written as others are."""
+    """ISO113: a G92 that names no place, with the place that it was taken for as its mend, written as others are.
+
+    A place of which no number can be read (ISO102) is no bare one: nothing is mended there.
+    """
     words = given.listing.words
     written = words.decimals[np.isin(words.letter, _MOTION_LETTERS)]
     place = " X0. Y0." if len(written) and (written >= 0).all() else " X0 Y0"
     ran = np.zeros(len(given.listing.blocks.line), dtype=np.bool_)
     ran[run.block] = True
+    ran &= ~given.listing.blocks.is_damaged
     names = given.listing.of("G")
     names = names[(words.value[names] * 10 == SET_PLACE) & (bare_place(given) & ran)[words.block[names]]]
     for word in names.tolist():

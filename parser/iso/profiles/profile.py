@@ -156,7 +156,7 @@ def _read(name: str) -> dict[str, Any]:
 
 
 _NAME: Final = re.compile(r"[a-z0-9][a-z0-9_-]{0,39}", re.ASCII)
-_CODE: Final = re.compile(r"(?:0|[1-9]\d{0,3})(?:\.\d)?", re.ASCII)
+_CODE: Final = re.compile(r"(?:0|[1-9]\d{0,2})(?:\.\d)?", re.ASCII)
 """Number of a G or M word without leading zeros: ``1``, ``90.1``."""
 _LETTERS: Final = re.compile(r"[A-Z]*", re.ASCII)
 _LONGEST_UM: Final = 1e12

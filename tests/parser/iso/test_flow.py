@@ -4,7 +4,9 @@ import tracemalloc
 
 import pytest
 
+from parser.findings.findings import edited
 from parser.iso.path import flow
+from parser.program import parse_program
 from parser.toolpath import Stop
 from tests.tools.iso_reading import findings, path, read
 
@@ -163,6 +165,12 @@ def test_a_program_without_end_code_gets_one_where_its_text_ends() -> None:
     (found,) = findings("G91 G01 X1\n(last)", "ISO109")
     assert [edit.text for edit in found.edits] == ["\nM02"]
     assert not findings("G91 G01 X1\nM30", "ISO109")
+
+
+def test_an_end_code_stands_before_what_dos_fills_the_last_sector_with() -> None:
+    text = "G91 G01 X1\nX-1" + "\0" * 5
+    edits = [edit for found in parse_program(text).findings for edit in found.edits]
+    assert edited(text, edits) == "G91 G01 X1\nX-1\nM02" + "\0" * 5
 
 
 def test_a_return_that_nothing_called_gets_no_end_code_written() -> None:

@@ -52,6 +52,7 @@ def test_numbers_have_the_scale_that_the_dialect_says() -> None:
         ("\nintger_um = 1\n", "makino.toml:2:1", "unknown-key"),
         ('[g]\n  145 = "swich"\n', "makino.toml:2:3", "dialect-one-of"),
         ('[g]\n"04" = "once"\n', "makino.toml:2:1", "dialect-code"),
+        ('[m]\n"1000" = "stop"\n', "makino.toml:2:1", "dialect-code"),
         ("integer_um = -1\n", "makino.toml:1:1", "dialect-length"),
         ("integer_um = nan\n", "makino.toml:1:1", "dialect-length"),
         ("may_be_inch = 1\n", "makino.toml:1:1", "dialect-truth"),

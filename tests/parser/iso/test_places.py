@@ -45,6 +45,17 @@ def test_a_bare_g92_is_told_and_mended_to_what_was_taken(text: str, mended: str)
     assert ends(path(new)) == ends(path(text))
 
 
+def test_the_place_of_a_bare_g92_that_ends_the_text_stands_before_the_end_code() -> None:
+    found = read("G90 G01 X5\nX0\nG92").findings
+    mended = edited("G90 G01 X5\nX0\nG92", [edit for one in found for edit in one.edits])
+    assert mended == "G90 G01 X5\nX0\nG92 X0 Y0\nM02"
+
+
+def test_a_g92_whose_place_cannot_be_read_is_not_mended_to_another() -> None:
+    found = read("G91 G92 X-\nG01 X5\nX-5\nM02\n").findings
+    assert {one.code for one in found} & {"ISO102", "ISO113"} == {"ISO102"}
+
+
 def test_a_g92_with_a_place_or_one_that_never_runs_is_not_called_bare() -> None:
     told = {one.code for one in read("G92 Z0\nG90 G92 Y1\nG01 X9\nM02\nG92\n").findings}
     assert "ISO113" not in told

@@ -282,3 +282,8 @@ def test_axes_beside_the_plane_are_counted_once_a_place() -> None:
         one for one in read("P1=0\nWHILE(P1<3)\nP1=P1+1\nX(P1)Z(P1)\nENDWHILE").findings if one.code == "PMC106"
     ]
     assert (found.values["word"], found.values["more"]) == ("Z1", 0)
+
+
+def test_a_block_that_runs_many_times_is_counted_once() -> None:
+    counts = read("P1=0\nWHILE(P1<5)\nX(P1+1)\nP1=P1+1\nENDWHILE\nX0").reading.counts
+    assert counts == (2, 2, 2)
