@@ -13,10 +13,16 @@ from report_pages import PART
 from parser.program import parse_program
 from sim.check.settings import CheckSettings
 from sim.show.drill_page import answers_page, drill_page
-from sim.teach.drills import DrillRequest, drills_of
+from sim.show.texts import bilingual
+from sim.teach.drills import LEVELS, DrillRequest, drills_of
+from sim.teach.kinds import GROUPS
 
 if TYPE_CHECKING:
     from playwright.sync_api import Locator, Page
+
+
+KEYS = (*(f"drill.group-{group}" for group in GROUPS), *(f"drill.level-name-{level}" for level in LEVELS))
+"""Of the texts of kinds of fault and of levels."""
 
 
 def task(page: "Page") -> "Locator":
@@ -67,13 +73,26 @@ def test_answers_are_weighed_and_shown_and_the_score_can_be_taken_along(open_pag
         "Not right.",
     ]
     assert shown.inner_text("#end .score") == "4 of 8 points"
-    with shown.expect_download() as waiting:
-        shown.click("#save")
-    waiting.value.save_as(tmp_path / "score.csv")
-    head, *rows = csv.reader((tmp_path / "score.csv").read_text("utf-8-sig").splitlines())
+    head, *rows = saved(shown, tmp_path)
     assert head[0] == "name"
     assert [row[-1] for row in rows] == ["2", "1", "1", "0"]
     assert rows[0][:3] == ["'=Li Lei", "5", "1"]
+    assert [row[6] == row[7] for row in rows] == [True, False, True, False]
+    named = dict(map(bilingual, KEYS))
+    shown.click("[data-language-switch]")
+    in_chinese = saved(shown, tmp_path)
+    assert in_chinese[0][:2] == ["姓名", "套"]
+    assert [[row[at] for at in (3, 6, 7)] for row in in_chinese[1:]] == [
+        [named[row[at]] for at in (3, 6, 7)] for row in rows
+    ]
+
+
+def saved(shown: "Page", folder: Path) -> list[list[str]]:
+    """Rows of the score that the page offers."""
+    with shown.expect_download() as waiting:
+        shown.click("#save")
+    waiting.value.save_as(folder / "score.csv")
+    return list(csv.reader((folder / "score.csv").read_text("utf-8-sig").splitlines()))
 
 
 def test_a_task_is_answered_by_the_keyboard_alone(open_page: OpenPage) -> None:

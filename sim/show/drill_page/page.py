@@ -11,6 +11,7 @@ from typing import Any, Final, NamedTuple, TypedDict
 
 import numpy as np
 
+from parser.documents import SaidEntry
 from parser.findings.catalogue import LANGUAGES, Bilingual, length, texts
 from parser.findings.codes import Severity
 from parser.findings.findings import Finding
@@ -23,7 +24,7 @@ from sim.show.draw.flatten import bounds_um, cut_runs, flatten, simplify
 from sim.show.draw.svg import path_data
 from sim.show.html.environment import rendered
 from sim.show.texts import bilingual
-from sim.teach.drills import Drill, Level, lines_of
+from sim.teach.drills import LEVELS, Drill, Level, lines_of
 from sim.teach.kinds import groups_of
 
 WIDTH, HEIGHT = 720, 480
@@ -165,10 +166,12 @@ class DrillEntry(TypedDict):
 
 
 class DrillsEntry(TypedDict):
-    """The number of the set, and its tasks."""
+    """The number of the set, its tasks, and what the kinds of fault and the levels are called."""
 
     set: int
     drills: list[DrillEntry]
+    groups: dict[str, SaidEntry]
+    levels: dict[str, SaidEntry]
 
 
 def drill_page(sound: Program, drills: Sequence[Drill], number: int, files: Sequence[str]) -> str:
@@ -180,8 +183,15 @@ def drill_page(sound: Program, drills: Sequence[Drill], number: int, files: Sequ
     data: DrillsEntry = {
         "set": number,
         "drills": [{"lines": list(drill.lines), "group": drill.group, "level": drill.level} for drill in drills],
+        "groups": {group: _in_both(f"drill.group-{group}") for group in groups_of(sound)},
+        "levels": {level: _in_both(f"drill.level-name-{level}") for level in LEVELS},
     }
     return _page("drill.html.j2", sound, drills, number, files=files, data=data, places=places_of(sound.toolpath))
+
+
+def _in_both(key: str) -> SaidEntry:
+    en, zh = bilingual(key)
+    return {"en": en, "zh": zh}
 
 
 def answers_page(sound: Program, drills: Sequence[Drill], number: int) -> str:

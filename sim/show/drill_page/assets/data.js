@@ -1,13 +1,17 @@
 // What the page hands over to its script.
 import { element } from "../../html/assets/elements.js";
 
+/** @import { Said } from "../../html/assets/language.js" */
+
 /** Written by `make pages` from the model in Python. */
 
 /**
- * The number of the set, and its tasks.
+ * The number of the set, its tasks, and what the kinds of fault and the levels are called.
  * @typedef {object} Drills
  * @property {number} set
  * @property {Drill[]} drills
+ * @property {Record<string, Said>} groups
+ * @property {Record<string, Said>} levels
  */
 
 /**

@@ -5,13 +5,14 @@ import { readDrills } from "./data.js";
 import { saveScore } from "./score.js";
 import { taskIn } from "./task.js";
 
-const { set, drills } = readDrills();
+const data = readDrills();
 const start = element("#start", HTMLElement);
 const end = element("#end", HTMLElement);
 const places = element("details.places", HTMLElement);
 const save = element("#save", HTMLButtonElement);
 const who = element("#who", HTMLInputElement);
-const tasks = drills.map((drill, at) => taskIn(element(`[data-drill="${at}"]`, HTMLElement), drill, () => show(at + 1)));
+const tasks = data.drills.map((drill, at) =>
+  taskIn(element(`[data-drill="${at}"]`, HTMLElement), drill, () => show(at + 1)));
 
 /**
  * Show a task by its index; the score behind the last.
@@ -37,7 +38,7 @@ for (const task of tasks) task.show(false);
 for (const form of elements("form")) form.addEventListener("submit", (event) => event.preventDefault());
 places.hidden = true;
 start.addEventListener("submit", () => show(0));
-save.addEventListener("click", () => saveScore(drills, tasks, { who: who.value.trim(), set }));
+save.addEventListener("click", () => saveScore(data, tasks, who.value.trim()));
 window.addEventListener("beforeprint", () => {
   places.hidden = false;
   places.setAttribute("open", "");
