@@ -17,8 +17,7 @@ if TYPE_CHECKING:
     from parser.findings.findings import Finding
     from sim.setup.scenario import Scenario
     from sim.show.draw.style import ThemeName
-    from sim.show.pictures.files import PictureFiles
-    from sim.show.pictures.shown import Drawable
+    from sim.show.pictures.files import Drawable, PictureFiles
 
 SUFFIXES = (".png", ".svg")
 
@@ -101,7 +100,7 @@ def _drawn_from(
     """What the pictures are drawn of, with its findings: the program alone where no other picture needs a run."""
     from parser.program import moving
     from sim.jobs.shop import program_read, source_of
-    from sim.show.pictures.path import PATH, PathAlone
+    from sim.show.pictures.cut.of_path import PATH, PathAlone
 
     program = moving(program_read(scenario, source_of(scenario)))
     if set(picture_files.files) == {PATH}:
@@ -122,8 +121,8 @@ def _drawn_from(
 
 def _picture_files(output: Path, names: tuple[str, ...], svg: bool) -> "PictureFiles":
     """Which pictures are to become which files. BadParameter for what does not fit together."""
+    from sim.show.pictures.cut.of_path import PATH
     from sim.show.pictures.files import PictureFiles
-    from sim.show.pictures.path import PATH
 
     for name in names:
         if name != PATH and name not in _all():

@@ -35,7 +35,7 @@ from sim.run.dryrun import DryRun, Ending, PulseSink, motion_to_end, trip_of
 from sim.run.prepare import Prepared, prepare
 from sim.setup.part import DrawingTarget
 from sim.setup.scenario import Scenario
-from sim.table.findings import loss_findings
+from sim.table.losses import loss_findings
 from sim.table.motion import Motion, Moved, TableRun, driven
 from sim.table.trace import Trace
 

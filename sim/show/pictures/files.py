@@ -1,22 +1,41 @@
-"""Pictures as files, all of them or none."""
+"""Pictures as files, all of them or none, and what they are drawn of: a program alone, or a run of it."""
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from parser.findings.catalogue import Language
 from parser.findings.errors import SettingsError
 from sim.base.files import staged
-from sim.show.draw.sheet import Sheet, drawing, pixels
+from sim.show.draw.sheet import AnyCanvas, Sheet, drawing, pixels
 from sim.show.draw.style import THEMES, ThemeName
 from sim.show.draw.svg import Svg
-from sim.show.pictures.shown import Drawable, label
+from sim.show.texts import Words
 
 if TYPE_CHECKING:
     from sim.show.draw.raster import Raster
 
+
 DPI = 300
 """At which the named sizes are paper sizes."""
+
+
+class Drawable(Protocol):
+    """What pictures are drawn of."""
+
+    def title_in(self, language: Language) -> str:
+        """What it is called in a language."""
+
+    def least_px(self, name: str) -> int:
+        """How narrow a picture can be."""
+
+    def draw(self, name: str, sheet: Sheet[AnyCanvas]) -> AnyCanvas | None:
+        """The page of a picture, drawn; None where there is nothing to show in it."""
+
+
+def label(name: str, title: str, language: Language) -> str:
+    """What a picture is, for those who cannot see it."""
+    return f"{title}: {Words(language)(f'common.picture_{name}')}"
 
 
 class PictureFiles(NamedTuple):

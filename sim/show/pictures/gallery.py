@@ -8,7 +8,7 @@ from sim.run.dryrun import DryRun
 from sim.run.recording import Recording
 from sim.show.draw import style
 from sim.show.draw.sheet import AnyCanvas, Sheet
-from sim.show.pictures.cut.of_path import Programmed, draw_path
+from sim.show.pictures.cut.of_path import PATH, Programmed, draw_path
 from sim.show.pictures.cut.of_run import draw_cut_of_run
 from sim.show.pictures.cut.picture import Shapes
 from sim.show.pictures.deviation.along import draw_along, draw_histogram
@@ -17,11 +17,10 @@ from sim.show.pictures.deviation.polar import draw_polar
 from sim.show.pictures.deviation.whiskers import draw_whiskers
 from sim.show.pictures.deviation.worst import draw_worst
 from sim.show.pictures.motion.picture import draw_motion
-from sim.show.pictures.path import PATH
 
 
 class Subject(NamedTuple):
-    """What pictures show (`sim.show.pictures.shown.Drawable`).
+    """What pictures show (`sim.show.pictures.files.Drawable`).
 
     It is a recorded run, how far its samples lie from the ideal path, and what pictures of its cut have in common.
     """

@@ -7,9 +7,9 @@ from typing import Final, NamedTuple
 from parser.findings.catalogue import LANGUAGES, Language
 from sim.base.progress import Progress
 from sim.show.draw.sheet import drawing
+from sim.show.pictures.cut.of_path import PATH
+from sim.show.pictures.files import label
 from sim.show.pictures.gallery import PICTURES, Subject
-from sim.show.pictures.path import PATH
-from sim.show.pictures.shown import label
 
 WIDTH_PX = 1600
 

@@ -223,7 +223,7 @@ PLAN: Final = "plan"
 
 
 class PlanShown(NamedTuple):
-    """A plan of which `PLAN` is to be drawn; see `sim.show.pictures.shown.Drawable`."""
+    """A plan of which `PLAN` is to be drawn; see `sim.show.pictures.files.Drawable`."""
 
     plan: CutPlan
 

@@ -43,8 +43,9 @@ def test_kerning_draws_letters_together_and_a_letter_that_the_font_has_not_is_as
 
 def test_no_picture_of_a_path_in_lines_loads_pygame_pillow_or_shapely() -> None:
     code = (
-        "import sys; import sim.show.pictures.path, sim.show.pictures.files; from sim.show.draw.sheet import drawing;"
-        "drawing(800); print([name for name in ('pygame', 'PIL', 'shapely', 'numba') if name in sys.modules])"
+        "import sys; import sim.show.pictures.cut.of_path, sim.show.pictures.files;"
+        "from sim.show.draw.sheet import drawing; drawing(800);"
+        "print([name for name in ('pygame', 'PIL', 'shapely', 'numba') if name in sys.modules])"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout == "[]\n"

@@ -17,10 +17,9 @@ from sim.run.recording import NO_PIECES, Recording
 from sim.setup.scenario import load_scenario
 from sim.show.draw.sheet import pixels
 from sim.show.draw.style import DARK, Paint
-from sim.show.pictures.cut.of_path import Programmed, cut_of_path, draw_path, programmed
+from sim.show.pictures.cut.of_path import PATH, PathAlone, Programmed, cut_of_path, draw_path, programmed
 from sim.show.pictures.cut.picture import draw_cut, layout_of
 from sim.show.pictures.gallery import subject_of
-from sim.show.pictures.path import PATH, PathAlone
 
 PART = "B0B5000B5000GYL2 B9900B0B9900GXL1 B0B9900B9900GYL2 B9900B0B9900GXL3 B0B9900B9900GYL4 B0B5000B5000GYL4 DD"
 OPEN = PART.replace("B9900B0B9900GXL3", "B9000B0B9000GXL3")

@@ -11,8 +11,7 @@ from parser.controller_words import Axis
 from parser.findings.catalogue import texts
 from parser.program import Program, parse_program
 from sim.setup.machine.machine import Motor
-from sim.table.findings import MOST, loss_findings
-from sim.table.losses import Loss
+from sim.table.losses import MOST, Loss, loss_findings
 
 STEPPER = Motor("stepper", 0.002, 6.0, math.inf, ((0.0, 2000.0),))
 SERVO = Motor("servo", 0.001, 6.0, 100.0, ((0.0, 2000.0),))

@@ -1,13 +1,11 @@
-"""The programmed path, and what the check finds on it: no table runs for this picture, and nothing is worked out.
-
-What stands about a cut on its page: the bodies on the table, how far that reaches, and the line under the title.
-"""
+"""The picture of a path by itself, with what the check finds on it: no table runs for it, and no engine is loaded."""
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
 
+from parser.findings.catalogue import Language
 from parser.findings.findings import Finding
 from parser.geometry.curves import Floats
 from parser.program import Program
@@ -19,6 +17,7 @@ from sim.check.offset import Offsetting
 from sim.run.findings import outcome
 from sim.run.prepare import checked_for, prepare
 from sim.setup.scenario import Scenario
+from sim.show.draw import style
 from sim.show.draw.sheet import AnyCanvas, Sheet
 from sim.show.pictures.cut.picture import draw_cut
 from sim.show.pictures.cut.subject import Bodies, Cut
@@ -114,3 +113,25 @@ def cut_of_path(path: Programmed, say: Words) -> Cut:
         findings=path.findings,
         travel_um=travel_um(toolpath, scenario),
     )
+
+
+PATH: Final = "path"
+"""Name of this picture, as ``drycut draw --picture`` takes it."""
+
+
+class PathAlone(NamedTuple):
+    """A program of which nothing but `PATH` is to be drawn; see `sim.show.pictures.files.Drawable`."""
+
+    programmed: Programmed
+
+    def title_in(self, language: Language) -> str:
+        """Title of its scenario in a language."""
+        return self.programmed.scenario.title_in(language)
+
+    def least_px(self, name: str) -> int:
+        """How narrow the picture can be: it has a thumbnail."""
+        return style.LEAST_THUMBNAIL
+
+    def draw(self, name: str, sheet: Sheet[AnyCanvas]) -> AnyCanvas:
+        """The page, drawn."""
+        return draw_path(sheet, self.programmed)

@@ -24,9 +24,8 @@ from sim.show.draw.chart import AxisRange, Chart, range_of
 from sim.show.draw.layout import MOST_NUMBERS, Box, number_stride
 from sim.show.draw.style import Paint, paint_of_pass
 from sim.show.texts import Words
-from sim.table.findings import Lost
 from sim.table.history import Envelope, History
-from sim.table.losses import LossKind, Quantity
+from sim.table.losses import LossKind, Lost, Quantity
 
 ROW: Final = 30.0
 """Height of a row of numbers or signs."""
