@@ -112,4 +112,5 @@ def _sums(samples: list[_Sample]) -> Iterator[str]:
         yield words("findings.word-unread", word=printable(word), n=n, files=files[word])
     dialects = words("findings.comma").join(sorted({sample.result.dialect for sample in samples} - {""}))
     whole = sum(not sample.findings for sample in samples)
-    yield words("findings.samples", n=len(samples), whole=whole, dialects=dialects or "–")
+    key = "findings.samples" if len(samples) > 1 else "findings.one-sample"
+    yield words(key, n=len(samples), whole=whole, dialects=dialects or "–")

@@ -34,6 +34,8 @@ def test_samples_tell_what_a_dialect_does_not_read(shop: Path) -> None:
     (shop / "makino.toml").write_text(OWN + '146 = "switch"\n', "ascii")
     assert drycut("dialect", "test", "samples", "--dialect", "makino.toml", cwd=shop)[0] == 0
     assert "G145" in drycut("dialect", "test", "samples", "--dialect", "fanuc", cwd=shop)[1]
+    one = drycut("dialect", "test", "samples/a.nc", "--dialect", "makino.toml", cwd=shop)[1]
+    assert one == "1 file: 1 read whole; dialect: makino\n"
 
 
 IN_SETTINGS = f"[dialects.makino]\n{OWN.replace('[g]', '[dialects.makino.g]')}"
