@@ -7,6 +7,8 @@ from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+import numpy as np
+
 from parser.drawing.model import LeftOut
 from parser.findings.catalogue import LANGUAGES, Bilingual, Language, Remark, remark_text, texts
 from parser.findings.codes import Severity
@@ -201,7 +203,7 @@ def _same_passes(plan: CutPlan, words: Words) -> Iterator[str]:
     passes = set(map(_passes, plan.cuts))
     if len(passes) == 1:
         yield words("program.passes", passes=passes.pop()) if any(plan.passes_um) else words("program.passes-none")
-    tabs = [str(cut.figure.number) for cut in plan.cuts if cut.cut_off]
+    tabs = [cut.figure.number for cut in plan.cuts if cut.cut_off]
     if tabs:
         yield words("program.tabs", figures=_numbers(tabs), length=f"{mm(plan.making.tab_um):g}")
 
@@ -253,10 +255,16 @@ def _with_places(text: Bilingual, places_um: tuple[tuple[float, float], ...]) ->
 
 def _chosen(plan: CutPlan, words: Words) -> Iterator[str]:
     """Thread points that nobody asked for."""
-    chosen = [str(cut.figure.number) for cut in plan.cuts if cut.thread.by == "chosen"]
+    chosen = [cut.figure.number for cut in plan.cuts if cut.thread.by == "chosen"]
     if chosen:
         yield words("program.chosen", figures=_numbers(chosen))
 
 
-def _numbers(figures: list[str]) -> str:
-    return ", ".join(figures[:_MOST_FIGURES]) + ("…" if len(figures) > _MOST_FIGURES else "")
+def _numbers(figures: Sequence[int]) -> str:
+    """Numbers in their order, runs of three and more as a range: ``1–20, 22, 23``; the first of very many."""
+    ordered = np.sort(np.array(figures, dtype=np.int64))
+    runs = np.split(ordered, np.flatnonzero(np.diff(ordered) > 1) + 1)
+    names: list[str] = []
+    for run in runs:
+        names += [f"{run[0]}–{run[-1]}"] if len(run) > 2 else map(str, run)
+    return ", ".join(names[:_MOST_FIGURES]) + ("…" if len(names) > _MOST_FIGURES else "")

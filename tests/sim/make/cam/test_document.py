@@ -19,6 +19,7 @@ from parser.drawing.model import LeftOut
 from parser.findings.catalogue import Remark
 from sim.make.cam.document import document, document_text
 from sim.make.cam.maker import MadeProgram, NotMade, made_program, unproved
+from sim.make.cam.model import FigureCut
 from sim.make.wanted import Wanted
 from sim.setup.making import Making
 from sim.show.terminal.program import told_lines
@@ -107,6 +108,17 @@ def test_what_is_wrong_with_an_entity_and_how_far_it_is_from_closing_is_told_onc
     assert told.count("degree 0") == 1
     assert "2.5 mm away" in told
     assert "note:" not in told
+
+
+def test_figures_in_a_row_are_told_as_a_range(done: MadeProgram) -> None:
+    cut = next(cut for cut in done.plan.cuts if cut.thread.by == "chosen")
+    cuts = tuple(replace_number(cut, number) for number in (9, 4, 3, 2, 1, 7, 6))
+    (line,) = [line for line in told_lines(done.plan._replace(cuts=cuts), "en", 200) if line.startswith("chosen")]
+    assert line.startswith("chosen: thread points of 1–4, 6, 7, 9; ")
+
+
+def replace_number(cut: FigureCut, number: int) -> FigureCut:
+    return cut._replace(figure=cut.figure._replace(number=number))
 
 
 @pytest.mark.parametrize("language", ["en", "zh"])
