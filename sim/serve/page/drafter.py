@@ -31,7 +31,7 @@ from sim.setup.part import DrawingTarget
 from sim.setup.scenario import Scenario
 from sim.show.refusals import why_refused
 from sim.show.replay.tape import drawing_columns
-from sim.show.terminal.program import against, told_lines
+from sim.show.terminal.program import advice, against, told_lines
 from sim.show.texts import Words
 
 _WIDE: Final = 100_000
@@ -82,9 +82,11 @@ def _making(request: PageRequest) -> Making:
 
 
 def _summary(done: MadeProgram, language: Language) -> list[str]:
-    """What there is to say of a program: whether it is proved, what speaks against it, what was chosen and left out."""
-    proved = [Words(language)(f"program.verdict-{done.proof.verdict}")] if done.proof else []
-    return [*proved, *against(done, language), *told_lines(done.plan, language, _WIDE)]
+    """What there is to say of a program: whether it is proved, what speaks against it, what helps, what was chosen."""
+    words = Words(language)
+    proved = [words(f"program.verdict-{done.proof.verdict}")] if done.proof else []
+    todo = advice(done, language, words("program.tab-control", label=words("open.tab")))
+    return [*proved, *against(done, language), *todo, *told_lines(done.plan, language, _WIDE)]
 
 
 def _placement(request: PageRequest, drawing: Drawing, target: DrawingTarget) -> tuple[Placement, list[Bilingual]]:

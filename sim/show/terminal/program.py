@@ -51,8 +51,8 @@ def proof_lines(done: MadeProgram, name: str, language: Language, width: int) ->
         yield words("program.more-findings", more=f"{len(found) - _MOST_FINDINGS:,}")
     for text in said_of_proof(proof, words):
         yield from wrapped(text, width, "", _INDENT)
-    if _is_early(done):
-        yield from wrapped(words("program.advice-tab"), width, "", _INDENT)
+    for text in advice(done, language, words("program.tab-option")):
+        yield from wrapped(text, width, "", _INDENT)
     edge = proof.comparison
     if edge is not None and proof.run is not None:
         text = words(
@@ -64,6 +64,12 @@ def proof_lines(done: MadeProgram, name: str, language: Language, width: int) ->
         )
         yield from wrapped(text, width, "", _INDENT)
     yield styled(words(f"program.verdict-{proof.verdict}"), f"bold {COLOURS[proof.verdict]}")
+
+
+def advice(done: MadeProgram, language: Language, tab: str) -> Iterator[str]:
+    """What to do where a part comes free too early; `tab` says how a tab is asked for."""
+    if _is_early(done):
+        yield Words(language)("program.advice-tab", tab=tab)
 
 
 def _is_early(done: MadeProgram) -> bool:

@@ -161,6 +161,9 @@ def test_a_program_that_is_not_proved_says_so_at_its_head(drawing: Path, tmp_pat
     found = made(drawing, tmp_path / "made.json", offset_mm="0.2 0.1")  # the first pass sets the part free
     assert (found["is_proved"], found["told"][0]["en"]) == (False, "not proved: the program fails its own proof")
     assert "3B406" in found["program"]["text"][:400]
+    (todo,) = [text for text in found["told"] if text["en"].startswith("what to do")]
+    assert "passes: 3 in “tab mm” holds it" in todo["en"]
+    assert "：“支撑段 mm”填 3，" in todo["zh"]
 
 
 def test_what_cannot_be_made_says_why(served: OpenedPage, dxf: bytes, drawing: Path, tmp_path: Path) -> None:
