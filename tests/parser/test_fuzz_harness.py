@@ -1,7 +1,11 @@
 """The fuzz harness finds what it is for: each planted fault is told with its number, and the others are still tried."""
 
+import os
+import subprocess
+import sys
 from pathlib import Path
 
+import guided_fuzz
 import pytest
 from fuzzing import planted
 from fuzzing.minimise import minimised, shortest
@@ -10,6 +14,7 @@ from fuzzing.promises import of_document, unclean
 from fuzzing.target import SEED
 from fuzzing.targets import TARGETS
 from fuzzing.worker import Done, Failure, Task, tried
+from places import ROOT
 
 
 @pytest.mark.deeper
@@ -52,6 +57,21 @@ def test_an_input_is_made_from_its_number_alone(name: str) -> None:
     before = [target.input(SEED, number) for number in range(20)]
     assert [target.input(SEED, number) for number in reversed(range(20))] == before[::-1]
     assert len(set(before)) > 10
+
+
+@pytest.mark.parametrize("name", guided_fuzz.TEXTS_AND_FILES)
+def test_what_is_fuzzed_by_what_it_reaches_is_a_text_or_a_file(name: str) -> None:
+    assert isinstance(TARGETS[name].input(SEED, 0), bytes)
+
+
+def test_an_input_that_broke_a_promise_is_tried_again_from_its_file(tmp_path: Path) -> None:
+    """Without atheris, which is installed by `make guided` alone."""
+    (tmp_path / "iso-1").write_bytes(b"%\nO0027\nG91 S1 D1\nG92")
+    tool = ROOT / "tests" / "tools" / "guided_fuzz.py"
+    command = [sys.executable, tool, "--target", "iso", "--file", tmp_path / "iso-1"]
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    done = subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
+    assert (done.returncode, done.stdout) == (0, "")
 
 
 def test_what_a_terminal_would_obey_is_not_clean() -> None:
