@@ -82,15 +82,22 @@ def test_the_lines_are_the_means_of_the_history_on_the_scales_beside_them() -> N
         assert shown.max() == pytest.approx(mean[:, 0].max(), abs=max(1.0 * px, 0.1 * np.ptp(mean[:, 0])))
 
 
-def test_areas_and_strokes_reach_from_the_lowest_to_the_highest() -> None:
+def edges(canvas: Recorder) -> list[Drawn]:
+    """The lower and the upper edge of Y in each panel, and in the sample of the legend: solid lines, beside dashes."""
+    return [
+        one for one in canvas.of("polyline", Paint.Y) if np.ptp(np.asarray(one.at)[:, 0]) > 12.0
+    ]  # longer than a dash
+
+
+def test_areas_and_edges_reach_from_the_lowest_to_the_highest() -> None:
     run, canvas = plain(), drawn(plain())
     envelope = run.history.force_n
     frame = frames_of(canvas)[3]
     scale = np.polyfit(*values_beside(canvas, frame), 1)
     areas = [ring for one in canvas.of("region", Paint.X_PALE) for ring in one.at]
     (area,) = [ring for ring in areas if ring[:, 1].min() >= frame.top and ring[:, 1].max() <= frame.bottom]
-    strokes = np.concatenate(within(frame, [one for one in canvas.of("polyline", Paint.Y) if len(one.at) == 2]))
-    for axis, points in enumerate((area, strokes)):
+    low, high = within(frame, edges(canvas))
+    for axis, points in enumerate((area, np.concatenate([low, high]))):
         shown = np.polyval(scale, points[:, 1])
         span = (shown.min(), shown.max())
         assert span == pytest.approx((envelope.low[:, axis].min(), envelope.high[:, axis].max()), abs=abs(scale[0]))
@@ -108,15 +115,17 @@ def test_what_lasts_for_one_bin_of_thousands_shows_in_any_size(width_px: int) ->
     scale = np.polyfit(*values_beside(canvas, frame), 1)
     tops = np.concatenate([ring for one in canvas.of("region", Paint.X_PALE) for ring in one.at])
     tops = tops[(tops[:, 1] > frame.top) & (tops[:, 1] < frame.bottom)]
-    strokes = np.concatenate(within(frame, canvas.of("polyline", Paint.Y)))
+    low_edge, _ = within(frame, edges(canvas))
     assert np.polyval(scale, tops[:, 1]).max() == pytest.approx(40.0, abs=0.1)  # N
-    assert np.polyval(scale, strokes[:, 1]).min() == pytest.approx(-30.0, abs=0.1)
+    assert np.polyval(scale, low_edge[:, 1]).min() == pytest.approx(-30.0, abs=0.1)
 
 
 def test_x_and_y_differ_in_grey_too() -> None:
     canvas = drawn(plain())
     lines = [one for one in canvas.of("polyline", Paint.X) if len(one.at) > 3]
-    dashes = [one for one in canvas.of("polyline", Paint.Y) if abs(one.at[0][0] - one.at[-1][0]) > 1.0]
+    solid = {id(one) for one in edges(canvas)}
+    dashes = [one for one in canvas.of("polyline", Paint.Y) if id(one) not in solid]
+    assert len(solid) == 2 * 4 + 2
     assert len(lines) == 4
     assert len(dashes) > 100
     assert max(np.ptp(np.asarray(one.at)[:, 0]) for one in dashes) <= 11.0 + 1e-6  # px, of a dash

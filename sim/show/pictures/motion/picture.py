@@ -2,7 +2,8 @@
 
 The legend below the panels: the curves of both axes, and the signs on the time axis.
 
-Curves of a panel: X as an area with a line, Y hatched with a dashed line, so that a grey print tells them apart.
+Curves of a panel: X as an area with a line, Y between two thin lines with a dashed one, so that a grey print tells them
+apart.
 """
 
 from collections.abc import Sequence
@@ -42,7 +43,9 @@ from sim.show.texts.phrases import lasting, machine_name
 from sim.table.history import Envelope
 
 MEAN_WIDTH: Final = 2.4
-HATCH_WIDTH: Final = 1.2
+EDGE_WIDTH: Final = 1.2
+COLUMN: Final = 12.0
+"""Width of the columns of pixels in which edges are steps."""
 
 
 def draw_envelope(canvas: Canvas, chart: Chart, t: Floats, envelope: Envelope, axes: Sequence[Axis]) -> None:
@@ -52,7 +55,7 @@ def draw_envelope(canvas: Canvas, chart: Chart, t: Floats, envelope: Envelope, a
         if axis is Axis.X:
             draw_band(canvas, chart, np.repeat(t, 2)[1:-1], np.repeat(ends, 2, axis=0), Paint.X_PALE)
         else:
-            _draw_hatch(canvas, chart, t, ends)
+            _draw_edges(canvas, chart, t, ends)
     for axis in axes:
         mean = _mean_line(t, envelope.mean[:, axis])
         if axis is Axis.X:
@@ -67,20 +70,17 @@ def _mean_line(t: Floats, mean: Floats) -> Floats:
     return np.stack([middle, np.concatenate([mean[:1], mean, mean[-1:]])], axis=1)
 
 
-def _draw_hatch(canvas: Canvas, chart: Chart, t: Floats, ends: Floats) -> None:
-    """Draw a band (b, 2) as upright strokes, one in each column of pixels `style.HATCH` wide.
+def _draw_edges(canvas: Canvas, chart: Chart, t: Floats, ends: Floats) -> None:
+    """Draw a band (b, 2) by its lower and its upper edge, each as steps of columns of pixels `COLUMN` wide.
 
-    A stroke reaches from the lowest to the highest value of its column, and stands where the band is widest.
+    A step stands at the lowest or the highest value of its column: what comes and goes from bin to bin, as single steps
+    of a motor do, is one line, and what lasts for one bin shows.
     """
-    column = np.floor((chart.x_px(t[:-1]) - chart.frame.left) / (style.HATCH * chart.unit))
+    column = np.floor((chart.x_px(t[:-1]) - chart.frame.left) / (COLUMN * chart.unit))
     first = np.flatnonzero(np.diff(column, prepend=-1.0))
-    low, high = np.minimum.reduceat(ends[:, 0], first), np.maximum.reduceat(ends[:, 1], first)
-    widest = np.lexsort((np.rint(chart.y_px(ends[:, 1]) - chart.y_px(ends[:, 0])), column))[first]
-    x = chart.x_px((t[widest] + t[widest + 1]) / 2.0)
-    strokes = np.stack([np.stack([x, chart.y_px(end)], axis=1) for end in (low, high)], axis=1)
-    with canvas.clipped(chart.frame):
-        for stroke in strokes[low < high]:
-            canvas.polyline(stroke, Paint.Y, HATCH_WIDTH * chart.unit)
+    border = np.repeat(np.append(t[first], t[-1]), 2)[1:-1]
+    for edge in (np.minimum.reduceat(ends[:, 0], first), np.maximum.reduceat(ends[:, 1], first)):
+        draw_line(canvas, chart, np.stack([border, np.repeat(edge, 2)], axis=1), Paint.Y, EDGE_WIDTH)
 
 
 def _draw_dashes(canvas: Canvas, chart: Chart, values: Floats) -> None:
