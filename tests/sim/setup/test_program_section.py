@@ -99,6 +99,7 @@ def test_the_program_is_that_of_the_section(tmp_path: Path) -> None:
         (f"{LEAST}tolerance_um = 0.01\n", "tolerance_um is 0.01; it must lie between 0.1 and 1000"),
         (f"{LEAST}passes_mm = [0.1, 0.2]\n", "no larger than that of the pass before it"),
         (f"{LEAST}passes_mm = [0.1, 0.0]\n", "the only one"),
+        (f"{LEAST}passes_mm = [0.1, 5e-24]\n", "must lie between 0.0001 and 10"),
         (f"{LEAST}passes_mm = 0.1\n", "passes_mm is a list"),
         (f"{LEAST}passes_mm = [{', '.join(['0.1'] * 21)}]\n", "the number of passes is 21"),
         (f"{LEAST}order = [1.5]\n", "order: entry 1 is a whole number; found 1.5"),

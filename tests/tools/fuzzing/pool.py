@@ -26,7 +26,8 @@ class _Worker:
         self.folder.mkdir(parents=True, exist_ok=True)
         self.position = _SPAWN.Value("q", 0, lock=False)
         self.connection, far = _SPAWN.Pipe()
-        self._process = _SPAWN.Process(target=work, args=(far, self.position, self.folder), daemon=True)
+        # No daemon, as those may have no children: a command on two programs has workers of its own.
+        self._process = _SPAWN.Process(target=work, args=(far, self.position, self.folder), daemon=False)
         self._process.start()
         far.close()
 
