@@ -42,6 +42,12 @@ def place_text(place: tuple[float, float]) -> str:
     return f"({x:g}, {y:g})"
 
 
+def machine_values(keys: Sequence[str]) -> Bilingual:
+    """Values of a machine by their names, for keys such as ``saddle_mass_kg``."""
+    names = {key.name: words_of(section, key).name for section in SECTIONS for key in section.keys}
+    return listed(names[key] for key in keys)
+
+
 def taken_for_granted(run: DryRun) -> list[Bilingual]:
     """A sentence for each: how the program was read, the machine, and what nobody has measured or looked at."""
     found = assumptions_of(run)
@@ -49,10 +55,7 @@ def taken_for_granted(run: DryRun) -> list[Bilingual]:
     key = "by-default" if found.by_default else "chosen"
     lines.append(bilingual(f"assumptions.{key}", machine=machine_name(found.machine)))
     if found.values:
-        names = {key.name: words_of(section, key).name for section in SECTIONS for key in section.keys}
-        lines.append(
-            bilingual("assumptions.values", count=len(found.values), values=listed(names[key] for key in found.values))
-        )
+        lines.append(bilingual("assumptions.values", count=len(found.values), values=machine_values(found.values)))
     if not found.compared:
         lines.append(bilingual("assumptions.no-drawing"))
     if not found.wire_bows:

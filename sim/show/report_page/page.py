@@ -13,7 +13,7 @@ from typing import Any, Final, NamedTuple
 from markupsafe import Markup
 
 from parser.dialect.reader import OwnDialect
-from parser.findings.catalogue import Bilingual
+from parser.findings.catalogue import LANGUAGES, Bilingual
 from parser.program import Program, own_dialect_text
 from parser.text.encoding import encode_text
 from sim.base.workers.rounds import Maker, versions
@@ -29,11 +29,11 @@ from sim.setup.machine.machine import Machine, machine_sections
 from sim.setup.quiz import QUIZ
 from sim.setup.scenario import MACHINE_FILE, Scenario, scenario_sections
 from sim.setup.toml.keys import Key, Section, WrittenSection, toml_text, toml_value
-from sim.setup.toml.kinds import OneOf
+from sim.setup.toml.kinds import Keys, OneOf
 from sim.show.draw.style import DARK, Theme, hexadecimal
 from sim.show.html.environment import rendered
 from sim.show.pictures.inline import Inline
-from sim.show.refusals import taken_for_granted
+from sim.show.refusals import machine_values, taken_for_granted
 from sim.show.report_page.figures import key_figures, time_figures, why
 from sim.show.report_page.findings import explained, inline, shown_findings
 from sim.show.report_page.results import (
@@ -85,10 +85,11 @@ def setting_groups(scenario: Scenario, program: Program) -> list[SettingGroup]:
     named, *of_machine = machine_sections(scenario.machine)
     settings = {setting.key: setting for setting in (*_settings(whole), *_settings(named))}
     del settings["machine"], settings["name"]  # shown by its own sections, and beside the time
-    settings.pop("title_zh", None)  # the head has it
+    settings.pop("title_zh", None)  # it is the title in Chinese
+    settings.pop("name_zh", None)  # the head has it
     settings.pop("program", None)  # shown by its name alone
     read = (
-        settings.pop("title"),
+        settings.pop("title")._replace(value=Bilingual(*map(scenario.title_in, LANGUAGES))),
         settings.pop("provenance"),
         _program(whole.section, program),
         _found("encoding", program.encoding),
@@ -123,7 +124,7 @@ def _settings(written: WrittenSection) -> tuple[Setting, ...]:
 
 def _setting(section: Section, key: Key, value: Any) -> Setting:
     is_word = isinstance(key.kind, OneOf) and value in key.kind.words  # a dialect of a shop's own is none
-    text = value_word(value) if is_word else _value(value)
+    text = value_word(value) if is_word else machine_values(value) if isinstance(key.kind, Keys) else _value(value)
     return Setting(words_of(section, key).name, key.name, text, key.kind.unit)
 
 

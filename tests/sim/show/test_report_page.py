@@ -373,6 +373,16 @@ def test_every_setting_has_a_name_and_its_unit(full: Scenario) -> None:
     )
 
 
+def test_the_title_and_assumed_values_are_in_the_language_of_the_page() -> None:
+    scenario = load_scenario(SCENARIOS / "keyhole")
+    program = load_program(PART.encode(), "part.3b")
+    shown = {setting.key: setting.value for group in setting_groups(scenario, program) for setting in group.settings}
+    assert shown["title"] == Bilingual(scenario.title, "钥匙孔：R 24.9 半圆和 R 49.9 优弧")
+    assert shown["assumed"].en.startswith("mass of the saddle, mass of the carriage, ")
+    assert "_" not in shown["assumed"].zh
+    assert not {"title_zh", "name_zh"} & shown.keys()
+
+
 def test_a_folder_made_from_the_page_writes_the_same_report(tmp_path: Path) -> None:
     run = run_text(SMALL, title="part", kerf=True, thickness_mm=12.5)
     again = reproduction(run)
