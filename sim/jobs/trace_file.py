@@ -85,6 +85,8 @@ _DAMAGED: Final = (
 def _is_whole(trace: StoredTrace) -> bool:
     """Whether the arrays are of the types and sizes that are written."""
     arrays = {field.name: getattr(trace, field.name) for field in fields(StoredTrace)}
+    if not all(isinstance(array, np.ndarray) for array in arrays.values()):  # of what is no array numpy gives the bytes
+        return False
     steps, samples = len(np.atleast_1d(trace.step_t_s)), len(np.atleast_1d(trace.t_s))
     sizes = {"step_x_um": steps + 1, "step_y_um": steps + 1, "step_block": steps, "step_t_s": steps}
     counts = {"step_x_um", "step_y_um", "step_block", "block"}

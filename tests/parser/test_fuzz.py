@@ -1,6 +1,7 @@
 """Any input gets an answer: what `make fuzz` tries on many, on a few of each kind; and programs bad on purpose."""
 
 import time
+import zlib
 from pathlib import Path
 
 import pytest
@@ -12,6 +13,7 @@ from fuzzing.target import SEED
 from fuzzing.targets import TARGETS
 from fuzzing.worker import Task, tried
 from hostile import HOSTILE
+from places import CORPUS
 
 from parser.findings.codes import Severity
 from sim.check.file_check import Job, check_file
@@ -49,6 +51,15 @@ def test_any_input_gets_an_answer(name: str, tmp_path: Path) -> None:
     task = Task(TARGETS[name], SEED, 0, len(cases(max(INPUTS[name] // 2, 2), INPUTS[name])))
     broken = {number: tried(task, number, tmp_path / "input")[0] for number in range(task.past)}
     assert {number: promises for number, promises in broken.items() if promises} == {}
+
+
+@pytest.mark.parametrize("path", sorted((CORPUS / "odd").iterdir()), ids=lambda path: path.name)
+def test_an_input_that_once_broke_a_promise_gets_an_answer(path: Path, tmp_path: Path) -> None:
+    data = path.read_bytes()
+    number = zlib.crc32(data)
+    target = TARGETS[path.name.partition("-")[0]]
+    broken, _ = tried(Task(target, SEED, number, number + 1, data), number, tmp_path / "input")
+    assert broken == []
 
 
 @pytest.mark.alike(9)

@@ -6,6 +6,7 @@ import os
 import random
 import subprocess
 import sys
+import zipfile
 from dataclasses import fields
 from pathlib import Path
 
@@ -119,6 +120,15 @@ def test_a_trace_with_an_array_of_another_kind_is_none(tmp_path: Path, name: str
         np.savez(tmp_path / "other.npz", **{**arrays, name: other})
         with pytest.raises(FileUnreadableError, match=r"other\.npz"):
             read_trace(tmp_path / "other.npz")
+
+
+def test_a_trace_with_a_member_that_is_no_array_is_none(tmp_path: Path) -> None:
+    run_into(tmp_path, parse_program(TEXT), plain_scenario(), silent, trace=True)
+    with zipfile.ZipFile(tmp_path / "trace.npz") as was, zipfile.ZipFile(tmp_path / "other.npz", "w") as other:
+        for name in was.namelist():
+            other.writestr(name, was.read(name) if name != "t_s.npy" else b"no array")
+    with pytest.raises(FileUnreadableError, match=r"other\.npz"):
+        read_trace(tmp_path / "other.npz")
 
 
 def test_a_refused_run_writes_nothing(tmp_path: Path) -> None:

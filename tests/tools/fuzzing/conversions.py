@@ -56,8 +56,12 @@ def judge(data: Input, number: int, folder: Path) -> Judged:
 
 
 def _is_open(data: bytes) -> bool:
-    """Whether a contour of the source stays open: one that does has a path all the same, and is converted."""
-    return bool(list(telling(_checked("given", data).findings, OpenContour)))
+    """Whether a contour of the source stays open: one that does has a path all the same, and is converted.
+
+    So does one whose lead-out ends elsewhere (3B311): with the compensation worked in no lead is told from a contour.
+    """
+    findings = _checked("given", data).findings
+    return any(telling(findings, OpenContour)) or any(finding.code == "3B311" for finding in findings)
 
 
 def _of_written(data: bytes, name: str, *, may_stay_open: bool) -> list[str]:
