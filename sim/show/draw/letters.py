@@ -13,7 +13,7 @@ METRICS: Final = Path(style.FONT).with_name("metrics.json")
 
 
 class _Metrics(NamedTuple):
-    """Widths of letters and what lies between them, in parts of a size; most letters are `usual` wide, and Chinese."""
+    """Widths of letters, and how far pairs are moved, in parts of a size; what has no advance here is `usual` wide."""
 
     usual: float
     advances: dict[str, float]

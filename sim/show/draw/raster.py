@@ -6,7 +6,7 @@ every edge.
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from functools import cache
+from functools import lru_cache
 from typing import Final
 
 import numpy as np
@@ -156,7 +156,7 @@ def _font(size: float) -> pygame.font.Font:
     return _font_at(max(round(size), 1))
 
 
-@cache
+@lru_cache(maxsize=32)  # each has its file open
 def _font_at(size_px: int) -> pygame.font.Font:
     pygame.font.init()
     return pygame.font.Font(style.FONT, size_px)
