@@ -254,6 +254,9 @@ class Converted(NamedTuple):
         Values, µm, that the controller's table has to hold, by the names of their registers.
     ramp_ms
         Acceleration time that it sets, ms, as its shortest blocks ask for it; 0 where it sets none.
+    stays_open
+        Whether a check calls a contour open that is no more so than in its source. That of the source may be silent:
+        where it compensates, leads are told from contours.
     """
 
     data: bytes
@@ -266,6 +269,7 @@ class Converted(NamedTuple):
     open_um: float
     registers: Registers
     ramp_ms: int = 0
+    stays_open: bool = False
 
 
 class Refused(NamedTuple):
@@ -369,9 +373,17 @@ def _proved(program: Program, path: Toolpath, draft: Draft, wanted: Wanted, *, i
         return Refused("off", back, values=(("off", f"{proven.off_um:.3f}"), ("bound", f"{bound_um:g}")))
     alone = wanted.iso is None or _is_told_by_itself(data, draft, made, wanted, choices)
     lost = losses(program, path, draft, made, wanted)
+    stays_open = not closed and _is_called_open(back, checked)
     return Converted(
-        data, back, checked, proven.off_um, bound_um, lost, alone, open_um, choices.registers, made.ramp_ms
+        data, back, checked, proven.off_um, bound_um, lost, alone, open_um, choices.registers, made.ramp_ms, stays_open
     )
+
+
+def _is_called_open(program: Program, checked: Checked) -> bool:
+    """Whether a check that lets no contour stay open calls one so; `checked` lets them."""
+    if not any(contour.is_open for contour in checked.contours):
+        return False
+    return any(telling(run_checks(program, Demands()).findings, OpenContour))
 
 
 def _is_told_by_itself(data: bytes, draft: Draft, made: Written, wanted: Wanted, choices: Choices) -> bool:

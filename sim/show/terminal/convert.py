@@ -41,6 +41,7 @@ def converted_lines(done: Converted, out: Path, wanted: Wanted, language: Langua
         words("convert.off", off=f"{done.off_um:.3f}", bound=f"{done.bound_um:g}"),
         words("convert.finds", counts=numbered({"warning": warnings})) if warnings else "",
         words("convert.open", gap=f"{done.open_um:.0f}") if done.open_um else "",
+        words("convert.stays-open") if done.stays_open else "",
         words("convert.registers", options=_registers(done)) if done.registers else "",
         words("convert.ramp", ramp=done.ramp_ms) if done.ramp_ms else "",
         words("convert.lost", parts=listed(map(_lost, done.lost))) if done.lost else "",

@@ -80,7 +80,7 @@ def test_a_program_with_an_error_is_not_converted() -> None:
 
 def test_a_contour_that_stays_open_is_converted_as_it_is() -> None:
     made = done(OPEN, to_iso())
-    assert made.off_um == 0.0
+    assert (made.off_um, made.stays_open) == (0.0, True)
     assert "ISO300" in {finding.code for finding in run_checks(made.program, Demands()).findings}
 
 
@@ -115,6 +115,32 @@ def test_compensation_is_kept_in_iso_unless_it_is_to_be_worked_in() -> None:
     worked_in = done(HOLE, to_iso("skd2", keeps=False), registers=registers).program.toolpath
     assert worked_in.compensation is None
     np.testing.assert_allclose(worked_in.radius_um[1], 4900.0)
+
+
+ENDS_ELSEWHERE = """\
+%
+O0027
+G91 S1 D1
+G92 X0 Y0
+G42
+G01 X.5
+G01 X.5 Y-.25
+G01 X.5 Y-.25
+G03 I0.25 X.25 Y.25
+G02 X1. R.6
+G40 G01 X-2.25
+M30
+%
+"""
+"""What comes free is cut off by the lead-out, which ends 0.56 mm from where the lead-in came."""
+
+
+def test_a_lead_out_that_ends_elsewhere_stays_one_and_is_an_open_contour_without_compensation() -> None:
+    """A check calls it open only where the compensation that tells leads from contours is worked in: that is said."""
+    for keeps, is_open in ((True, False), (False, True)):
+        made = done(ENDS_ELSEWHERE, to_iso("fanuc", keeps=keeps), registers=(("D1", 50.0),))
+        codes = {finding.code for finding in run_checks(made.program, Demands()).findings}
+        assert (made.stays_open, "ISO300" in codes) == (is_open, is_open)
 
 
 AT_A_CORNER = """\

@@ -7,8 +7,6 @@ from fuzzing import iso_text, program_text
 from fuzzing.ran import answer_of, broken_by, leftovers, ran
 from fuzzing.target import Input, Judged
 from parser.findings.codes import Severity
-from parser.findings.findings import telling
-from sim.check.closures import OpenContour
 from sim.check.file_check import Job, check_file
 from sim.check.result import CheckResult
 from sim.check.settings import CheckSettings
@@ -29,6 +27,10 @@ _OPTIONS = (
 )
 
 
+_SAID = (b"drycut check will call it open", b"its contour stays open, as it was")
+"""What is said of a contour that only the kerf closes, and of one that is as open as its source."""
+
+
 def make(rng: random.Random) -> Input:
     """A program, as it is or with something in it changed."""
     if rng.random() < 0.3:
@@ -39,7 +41,7 @@ def make(rng: random.Random) -> Input:
 
 
 def judge(data: Input, number: int, folder: Path) -> Judged:
-    """What is written is proved: it has no error, and is open only where its source is or the command says so."""
+    """What is written is proved: it has no error, and is open only where the command says so."""
     assert isinstance(data, bytes)
     (folder / "given").write_bytes(data)
     name, *options = _OPTIONS[number % len(_OPTIONS)]
@@ -49,19 +51,10 @@ def judge(data: Input, number: int, folder: Path) -> Judged:
     if written.exists() != (not done.returncode):
         broken.append(f"exit {done.returncode} {'with' if written.exists() else 'without'} a file")
     if written.exists():
-        is_open = _is_open(data) or b"check will call it open" in b" ".join(done.stdout.split())
+        is_open = any(said in b" ".join(done.stdout.split()) for said in _SAID)
         broken += _of_written(written.read_bytes(), name, may_stay_open=is_open)
     answer = answer_of(done, folder) + (repr(written.read_bytes()) if written.exists() else "")
     return Judged(answer, broken, f"exit {done.returncode or 0}")
-
-
-def _is_open(data: bytes) -> bool:
-    """Whether a contour of the source stays open: one that does has a path all the same, and is converted.
-
-    So does one whose lead-out ends elsewhere (3B311): with the compensation worked in no lead is told from a contour.
-    """
-    findings = _checked("given", data).findings
-    return any(telling(findings, OpenContour)) or any(finding.code == "3B311" for finding in findings)
 
 
 def _of_written(data: bytes, name: str, *, may_stay_open: bool) -> list[str]:
