@@ -21,8 +21,8 @@ from sim.show.findings.wording import Options, reason, silenced, with_hint
 from sim.show.terminal.finding import message
 from sim.show.texts import Words
 
-# What XML 1.0 can hold, section 2.2; a line of text needs no other controls.
-_NO_XML = re.compile("[^\t\n\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+# What XML 1.0 can hold, section 2.2, but for DEL and C1, which it asks to avoid; a line needs no other controls.
+_NO_XML = re.compile("[^\t\n\u0020-\u007e\u00a0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 # An error needs a type, and a case that was left out must have none.
 _TYPES = {"error": {"type": "incomplete"}, "skipped": {}}
 _EPOCH = "1970-01-01T00:00:00"
