@@ -313,8 +313,8 @@ def _refuse_odd_passes(passes_um: tuple[float, ...], where: str) -> None:
     if not passes_um:
         return
     number(len(passes_um), PASSES, _named(where, "name-passes"))
-    for value in passes_um:
-        number(mm(value), OFFSET_MM if value else OR_NONE_MM, _named(where, "name-pass-offset"))
+    for value in filter(None, passes_um):
+        number(mm(value), OFFSET_MM, _named(where, "name-pass-offset"))
     if any(later > before for before, later in pairwise(passes_um)):
         raise SettingsError("pass-offset-rises", where=where)
     if len(passes_um) > 1 and not min(passes_um):

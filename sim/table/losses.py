@@ -147,7 +147,7 @@ def in_order(losses: Iterable[Loss]) -> tuple[Loss, ...]:
     return tuple(sorted(losses, key=lambda loss: (loss.t_s, loss.axis)))
 
 
-MOST = 20
+MOST_FINDINGS = 20
 """Findings of lost steps on one axis; the last of them holds all the rest."""
 
 
@@ -172,11 +172,11 @@ def loss_findings(program: Program, losses: tuple[Loss, ...], motor: Motor) -> l
 
 
 def _stretches(losses: Iterable[Loss]) -> list[list[Loss]]:
-    """Losses of one axis, parted where blocks without loss lie between, into no more than `MOST`."""
+    """Losses of one axis, parted where blocks without loss lie between, into no more than `MOST_FINDINGS`."""
     stretches: list[list[Loss]] = []
     for loss in sorted(losses, key=lambda loss: loss.row):
         goes_on = stretches and loss.row - stretches[-1][-1].row <= 1
-        if goes_on or len(stretches) == MOST:
+        if goes_on or len(stretches) == MOST_FINDINGS:
             stretches[-1].append(loss)
         else:
             stretches.append([loss])

@@ -58,9 +58,6 @@ class Recorder:
     def text(self, at: tuple[float, float], text: str, size: float, paint: Paint, align: float = 0.0) -> None:
         self.drawn.append(Drawn("text", paint, at, (text, size, align)))
 
-    def text_width(self, text: str, size: float) -> float:
-        return text_width(text, size)
-
     def of(self, what: str, paint: Paint | None = None) -> list[Drawn]:
         """Calls of a kind, and of a paint where one is given."""
         return [one for one in self.drawn if one.what == what and paint in (None, one.paint)]
@@ -75,7 +72,7 @@ class Recorder:
         boxes = []
         for one in self.of("text"):
             (x, y), (text, size, align) = one.at, one.more
-            width = self.text_width(text, size)
+            width = text_width(text, size)
             boxes.append(Box(x - align * width, y - size / 2, x + (1 - align) * width, y + size / 2))
         return boxes
 

@@ -55,9 +55,6 @@ class Canvas(Protocol):
     def text(self, at: tuple[float, float], text: str, size: float, paint: Paint, align: float = 0.0) -> None:
         """Write a line, vertically centred on `at`; `align` of its width lies to the left of `at`."""
 
-    def text_width(self, text: str, size: float) -> float:
-        """Width that `text` takes, px."""
-
 
 def arrow_head(tip: Floats, direction: Floats, size: float) -> Floats:
     """Corners (4, 2) of an arrow head."""

@@ -15,6 +15,7 @@ from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.flatten import CHORD_PX, simplify
 from sim.show.draw.layout import Box, box_around, nice_below, ticks
+from sim.show.draw.letters import text_width
 from sim.show.draw.style import Paint
 
 
@@ -254,7 +255,7 @@ def draw_ring_values(canvas: Canvas, dial: Dial) -> None:
         for ring in range(-RINGS, RINGS + 1):
             x, y = dial.at(np.array(angle), dial.ring_px(ring)).tolist()
             text = _value_text(ring, dial.ring_um)
-            plate = box_around(np.array([x, y]), canvas.text_width(text, size) + 0.4 * size, 1.1 * size)
+            plate = box_around(np.array([x, y]), text_width(text, size) + 0.4 * size, 1.1 * size)
             canvas.box(plate, Paint.PAGE, Paint.PAGE, 0.0)
             canvas.text((x, y), text, size, Paint.GREY, align=0.5)
 

@@ -17,15 +17,15 @@ from sim.show.draw.letters import text_width
 from sim.show.draw.style import Paint
 
 
-def elide(canvas: Canvas, text: str, size: float, width: float) -> str:
+def elide(text: str, size: float, width: float) -> str:
     """Make `text` fit into `width` px by leaving out its middle; characters that do not print become spaces."""
     text = "".join(c if c.isprintable() else " " for c in text)
-    if canvas.text_width(text, size) <= width:
+    if text_width(text, size) <= width:
         return text
     short, long = 0, len(text)
     while long - short > 1:
         middle = (short + long) // 2
-        fits = canvas.text_width(_without_middle(text, middle), size) <= width
+        fits = text_width(_without_middle(text, middle), size) <= width
         short, long = (middle, long) if fits else (short, middle)
     return _without_middle(text, short)
 
@@ -40,7 +40,7 @@ def draw_header(canvas: Canvas, unit: float, title: str, note: str, *, beside_px
     left, width = style.EDGE * unit, canvas.width_px - 2 * style.EDGE * unit - beside_px
     rows = ((title, style.TITLE, 0.34, Paint.INK), (note, style.NOTE, 0.72, Paint.GREY))
     for text, size, share, paint in rows:
-        line = elide(canvas, text, size * unit, width)
+        line = elide(text, size * unit, width)
         canvas.text((left, share * style.HEAD * unit), line, size * unit, paint)
 
 
@@ -58,7 +58,7 @@ def draw_axes(canvas: Canvas, page: Page) -> list[Box]:
         for tick in ticks(float(low[axis]), float(high[axis]), step):
             _draw_tick(canvas, page, axis, float(tick), step)
     size = style.TICK * unit
-    wide, high_px = canvas.text_width("X mm", size) + size, 1.6 * size
+    wide, high_px = text_width("X mm", size) + size, 1.6 * size
     names = [
         Box(plot.right - wide, plot.bottom - high_px, plot.right, plot.bottom),
         Box(plot.left, plot.top, plot.left + wide, plot.top + high_px),
@@ -193,7 +193,7 @@ def draw_legend(canvas: Canvas, legend: Legend, left: float, top: float) -> None
         sample = Box(left + begin, above, left + begin + entry.width * sizes.sample * unit, above + row_px)
         entry.draw(canvas, sample, unit)
         x = sample.left + (entry.width * sizes.sample + style.LEGEND_GAP) * unit
-        text = elide(canvas, entry.text, size, left + end - x)
+        text = elide(entry.text, size, left + end - x)
         canvas.text((x, above + row_px / 2.0), text, size, Paint.INK)
 
 

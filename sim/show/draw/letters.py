@@ -3,12 +3,11 @@
 import json
 from functools import cache
 from itertools import pairwise
-from pathlib import Path
 from typing import Final, NamedTuple
 
 from sim.show.draw import style
 
-METRICS: Final = Path(style.FONT).with_name("metrics.json")
+METRICS: Final = style.FONT.with_name("metrics.json")
 """Of the font, in its own units; `tests/tools/font_metrics.py` writes them."""
 
 

@@ -17,7 +17,6 @@ from parser.geometry.curves import Floats
 from sim.show.draw import style
 from sim.show.draw.canvas import arrow_head, dashes
 from sim.show.draw.layout import Box
-from sim.show.draw.letters import text_width
 from sim.show.draw.silent_pygame import pygame
 from sim.show.draw.style import LIGHT, Paint, Theme
 
@@ -132,13 +131,9 @@ class Raster:
 
     def text(self, at: tuple[float, float], text: str, size: float, paint: Paint, align: float = 0.0) -> None:
         """Write a line, vertically centred on `at`; `align` of its width lies to the left of `at`."""
-        image = _font(size * self._scale).render(text, True, self._theme[paint])
+        image = _font_at(max(round(size * self._scale), 1)).render(text, True, self._theme[paint])
         left = at[0] * self._scale - align * image.get_width()
         self._surface.blit(image, (round(left), round(at[1] * self._scale - image.get_height() / 2)))
-
-    def text_width(self, text: str, size: float) -> float:
-        """Width that `text` takes, px."""
-        return text_width(text, size)
 
     def image(self) -> Image.Image:
         """Give the page as an RGB picture."""
@@ -151,13 +146,9 @@ class Raster:
         return made
 
 
-def _font(size: float) -> pygame.font.Font:
-    """The shipped font at a size, px, rounded to a whole one."""
-    return _font_at(max(round(size), 1))
-
-
 @lru_cache(maxsize=32)  # each has its file open
 def _font_at(size_px: int) -> pygame.font.Font:
+    """The shipped font at a size, px."""
     pygame.font.init()
     return pygame.font.Font(style.FONT, size_px)
 

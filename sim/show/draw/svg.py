@@ -104,14 +104,10 @@ class Svg:
         """Write a line, vertically centred on `at`; `align` of its width lies to the left of `at`."""
         if not text:
             return
-        width = self.text_width(text, size)
+        width = text_width(text, size)
         place = f'x="{_figure(at[0] - align * width)}" y="{_figure(at[1] + RISE * size)}"'
         fitted = f'font-size="{_figure(size)}" textLength="{_figure(width)}" lengthAdjust="spacingAndGlyphs"'
         self._add(f"<text {place} {fitted} {self._colour('f', paint)}>{escape(text)}</text>")
-
-    def text_width(self, text: str, size: float) -> float:
-        """Width that `text` takes, px."""
-        return text_width(text, size)
 
     def fragment(self, label: str) -> str:
         """The picture as an element of a page, with a label for those who cannot see it."""

@@ -20,6 +20,7 @@ from sim.show.draw.canvas import Canvas
 from sim.show.draw.flatten import bounds_um
 from sim.show.draw.layout import Box, View, fitted
 from sim.show.draw.legend import Entry, LegendSizes, across, draw_legend, elide, in_columns, middle, stroke
+from sim.show.draw.letters import text_width
 from sim.show.draw.style import (
     THEMES,
     TONES,
@@ -120,7 +121,7 @@ def _draw_line(canvas: Canvas, line: Line, unit: float) -> None:
         texts = _wrapped(canvas, line.value, size) if canvas.height_px > 1.5 * row else (line.value,)
         for number, text in enumerate(texts):
             place = (0.0, middle + number * size * LEADING)
-            canvas.text(place, elide(canvas, text, size, canvas.width_px), size, line.paint)
+            canvas.text(place, elide(text, size, canvas.width_px), size, line.paint)
         return
     canvas.text((0.0, middle), line.name, size, Paint.GREY)
     canvas.text((canvas.width_px, middle), line.value, size, line.paint, align=1.0)
@@ -128,10 +129,10 @@ def _draw_line(canvas: Canvas, line: Line, unit: float) -> None:
 
 def _wrapped(canvas: Canvas, text: str, size: float) -> tuple[str, ...]:
     """The text as one line where it fits, else as two, broken at a space or between Chinese characters."""
-    if canvas.text_width(text, size) <= canvas.width_px:
+    if text_width(text, size) <= canvas.width_px:
         return (text,)
     breaks = [at for at in range(1, len(text)) if text[at - 1] == " " or ord(text[at - 1]) >= FIRST_CJK]
-    fitting = [at for at in breaks if canvas.text_width(text[:at], size) <= canvas.width_px]
+    fitting = [at for at in breaks if text_width(text[:at], size) <= canvas.width_px]
     return (text[: fitting[-1]].rstrip(), text[fitting[-1] :]) if fitting else (text,)
 
 
@@ -246,7 +247,7 @@ class Screen:
         look, layout, unit = self._look, self.layout, self.layout.unit
         canvas = Plate(look.width_px, look.height_px, self._theme)
         head, size = layout.head, style.TITLE * unit
-        title = elide(canvas, self._course.run.scenario.title_in(look.language), size, head.right - head.left)
+        title = elide(self._course.run.scenario.title_in(look.language), size, head.right - head.left)
         canvas.text((head.left, 0.42 * (head.top + head.bottom)), title, size, Paint.INK)
         if layout.is_wide:
             box = layout.panel._replace(top=self._panel.foot)

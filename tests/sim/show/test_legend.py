@@ -8,6 +8,7 @@ from recorder import Recorder
 from sim.show.draw import style
 from sim.show.draw.layout import Box
 from sim.show.draw.legend import Entry, Legend, LegendSizes, draw_at_foot, draw_legend, in_columns, in_rows, stroke
+from sim.show.draw.letters import text_width
 from sim.show.draw.style import Paint
 
 WIDTH_PX, HEIGHT_PX = 1600, 900
@@ -26,7 +27,7 @@ def drawn(legend: Legend, left: float = 0.0, top: float = 0.0) -> list[tuple[Box
     for sample, text in zip(canvas.of("polyline", Paint.INK), canvas.of("text", Paint.INK), strict=True):
         written, size = text.more[0], text.more[1]
         half = legend.sizes.row * legend.unit / 2.0
-        right = text.at[0] + canvas.text_width(written, size)
+        right = text.at[0] + text_width(written, size)
         boxes.append((Box(sample.at[0, 0], text.at[1] - half, right, text.at[1] + half), written))
     return boxes
 

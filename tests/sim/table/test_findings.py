@@ -11,7 +11,7 @@ from parser.controller_words import Axis
 from parser.findings.catalogue import texts
 from parser.program import Program, parse_program
 from sim.setup.machine.machine import Motor
-from sim.table.losses import MOST, Loss, loss_findings
+from sim.table.losses import MOST_FINDINGS, Loss, loss_findings
 
 STEPPER = Motor("stepper", 0.002, 6.0, math.inf, ((0.0, 2000.0),))
 SERVO = Motor("servo", 0.001, 6.0, 100.0, ((0.0, 2000.0),))
@@ -71,8 +71,8 @@ def test_axes_are_told_apart() -> None:
 def test_past_the_most_the_last_finding_holds_the_rest() -> None:
     slips = [slip(row) for row in range(0, BLOCKS, 2)]
     assert found(*slips) == [
-        *(("3B402", "X", row + 1, row + 1, 6.0) for row in range(0, 2 * (MOST - 1), 2)),
-        ("3B402", "X", 2 * MOST - 1, BLOCKS - 1, 6.0 * (len(slips) - MOST + 1)),
+        *(("3B402", "X", row + 1, row + 1, 6.0) for row in range(0, 2 * (MOST_FINDINGS - 1), 2)),
+        ("3B402", "X", 2 * MOST_FINDINGS - 1, BLOCKS - 1, 6.0 * (len(slips) - MOST_FINDINGS + 1)),
     ]
 
 
@@ -99,12 +99,12 @@ def test_findings_stand_in_file_order() -> None:
 def test_every_loss_is_in_just_one_finding(axis: Axis, rows: list[int]) -> None:
     losses = tuple(slip(row, axis, 6.0 * (1 + row % 5)) for row in rows)
     findings = loss_findings(PROGRAM, losses, STEPPER)
-    assert len(findings) <= MOST
+    assert len(findings) <= MOST_FINDINGS
     assert bool(findings) == bool(losses)
     covered = Counter(row for f in findings for row in range(f.block - 1, int(f.values["last"])))
     assert all(covered[row] == 1 for row in rows)
     assert set(covered.values()) <= {1}
-    if len(findings) < MOST:
+    if len(findings) < MOST_FINDINGS:
         assert set(covered) == set(rows)
     for f in findings:
         inside = [6.0 * (1 + row % 5) for row in rows if f.block - 1 <= row < int(f.values["last"])]

@@ -27,7 +27,7 @@ _OPTIONS = (
 )
 
 
-_SAID = (b"drycut check will call it open", b"its contour stays open, as it was")
+_CALLED_OPEN = (b"drycut check will call it open", b"its contour stays open, as it was")
 """What is said of a contour that only the kerf closes, and of one that is as open as its source."""
 
 
@@ -51,7 +51,7 @@ def judge(data: Input, number: int, folder: Path) -> Judged:
     if written.exists() != (not done.returncode):
         broken.append(f"exit {done.returncode} {'with' if written.exists() else 'without'} a file")
     if written.exists():
-        is_open = any(said in b" ".join(done.stdout.split()) for said in _SAID)
+        is_open = any(said in b" ".join(done.stdout.split()) for said in _CALLED_OPEN)
         broken += _of_written(written.read_bytes(), name, may_stay_open=is_open)
     answer = answer_of(done, folder) + (repr(written.read_bytes()) if written.exists() else "")
     return Judged(answer, broken, f"exit {done.returncode or 0}")

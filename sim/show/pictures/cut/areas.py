@@ -1,6 +1,6 @@
-"""The pieces that a cut frees, as filled areas, and what is written on them: only where pieces are known is it loaded.
+"""The pieces that a cut frees, as filled areas, and what is written on them.
 
-A path by itself is drawn without shapely, which comes with the extra ``run``.
+It is loaded where pieces are known: a path by itself is drawn without shapely, which comes with the extra ``run``.
 """
 
 from collections.abc import Iterator
@@ -20,6 +20,7 @@ from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.flatten import CHORD_PX, simplify
 from sim.show.draw.layout import Box, View, box_around
+from sim.show.draw.letters import text_width
 from sim.show.draw.style import Paint
 from sim.show.pictures.cut.subject import Board
 from sim.show.texts import Words
@@ -79,7 +80,7 @@ def _label(board: Board, choices: list[list[str]], outline_um: shapely.Polygon) 
     polygon = simpler(outline_um, 0.5 / page.view.px_per_um)
     places = _places(polygon, page.view)
     for lines in choices:
-        wide = max(canvas.text_width(line, size) for line in lines) + size
+        wide = max(text_width(line, size) for line in lines) + size
         box = board.room.take_clear(_within(polygon, page.view, places, (wide, _tall(lines, size))))
         if box:
             _write(canvas, box, lines, size)

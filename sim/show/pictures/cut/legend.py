@@ -178,7 +178,7 @@ def _pause(canvas: Canvas, box: Box, unit: float) -> None:
 
 
 def _number(canvas: Canvas, box: Box, unit: float) -> None:
-    draw_number(canvas, box_around(middle(box), *number_size(canvas, "12", unit)), "12", unit)
+    draw_number(canvas, box_around(middle(box), *number_size("12", unit)), "12", unit)
 
 
 def _piece(fill: Paint, edge: Paint) -> DrawSample:

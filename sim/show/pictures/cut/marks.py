@@ -22,6 +22,7 @@ from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.flatten import along
 from sim.show.draw.layout import Anchors, Box, View, box_around, number_stride, place_numbers
+from sim.show.draw.letters import text_width
 from sim.show.draw.style import Paint
 from sim.show.pictures.cut.sizes import length_text
 from sim.show.pictures.cut.subject import Board
@@ -50,7 +51,7 @@ def draw_numbers(board: Board, toolpath: Toolpath, kerf_px: float) -> Numbers:
     stride = number_stride(int(toolpath.source.block.max()))
     row = _rows(toolpath, stride)
     texts = [toolpath.source.names.of_row(at) for at in row.tolist()]
-    sizes = np.array([number_size(canvas, text, page.unit) for text in texts]).reshape(-1, 2)
+    sizes = np.array([number_size(text, page.unit) for text in texts]).reshape(-1, 2)
     anchors = [_anchors(page.view, toolpath, row, share) for share in NUMBERS_AT]
     gap = style.NUMBER_GAP * page.unit
     places = place_numbers(anchors, sizes, gap + min(kerf_px / 2, gap), board.room)
@@ -67,9 +68,9 @@ def draw_number(canvas: Canvas, box: Box, number: str, unit: float) -> None:
     canvas.text(middle, number, style.NUMBER * unit, Paint.INK, align=0.5)
 
 
-def number_size(canvas: Canvas, number: str, unit: float) -> tuple[float, float]:
+def number_size(number: str, unit: float) -> tuple[float, float]:
     """Width and height of the box of a block number, px."""
-    text = canvas.text_width(number, style.NUMBER * unit)
+    text = text_width(number, style.NUMBER * unit)
     return text + 2 * style.NUMBER_INSET * unit, 1.25 * style.NUMBER * unit
 
 
@@ -114,7 +115,7 @@ def draw_gaps(board: Board, toolpath: Toolpath, findings: Sequence[Finding]) -> 
         ends = board.page.view.to_px(gap)
         canvas.dashed(ends, Paint.ERROR, style.MARK_WIDTH * unit, style.DASH * unit, style.DASH_GAP * unit)
         text = board.say("cut.gap", size=length_text(float(np.hypot(*(gap[1] - gap[0])))))
-        wide = canvas.text_width(text, size) + 2 * style.NUMBER_INSET * unit
+        wide = text_width(text, size) + 2 * style.NUMBER_INSET * unit
         box = board.room.take(_round(ends.mean(axis=0), (wide, 1.25 * size), (style.MARK + style.CROSS) * unit))
         if box:
             canvas.box(box, Paint.PAGE, Paint.PAGE, 0.0)
@@ -156,7 +157,7 @@ def draw_pauses(board: Board, toolpath: Toolpath, *, numbers: bool) -> int:
     drawn = 0
     for stop in pauses(toolpath)[:_MOST_PAUSES]:
         number = toolpath.source.names.at(stop.after) if stop.after and numbers else ""
-        size = _pause_size(canvas, number, unit)
+        size = _pause_size(number, unit)
         corner = corners[min(stop.after, len(toolpath))]
         box = board.room.take(_boxes_beside(corner, size, unit))
         if box:
@@ -179,8 +180,8 @@ def draw_pause(canvas: Canvas, box: Box, number: str, unit: float) -> None:
     canvas.text((box.left + side, middle), number, style.NUMBER * unit, Paint.PAUSE)
 
 
-def _pause_size(canvas: Canvas, number: str, unit: float) -> tuple[float, float]:
-    text = canvas.text_width(number, style.NUMBER * unit) + style.NUMBER_INSET * unit if number else 0.0
+def _pause_size(number: str, unit: float) -> tuple[float, float]:
+    text = text_width(number, style.NUMBER * unit) + style.NUMBER_INSET * unit if number else 0.0
     return style.PAUSE * unit + text, style.PAUSE * unit
 
 
@@ -333,7 +334,7 @@ def draw_flag(canvas: Canvas, center: Floats, severity: Severity, unit: float) -
 def _write(board: Board, flag: Flag, center: Floats) -> None:
     canvas, unit = board.canvas, board.page.unit
     size = style.NUMBER * unit
-    wide, tall = canvas.text_width(flag.text, size) + 2 * style.NUMBER_INSET * unit, 1.25 * size
+    wide, tall = text_width(flag.text, size) + 2 * style.NUMBER_INSET * unit, 1.25 * size
     box = board.room.take(_round(center, (wide, tall), style.FLAG * unit))
     if box:
         canvas.box(box, Paint.PAGE, SEVERITY_PAINTS[flag.severity], unit)

@@ -16,6 +16,7 @@ from sim.show.draw.canvas import Canvas
 from sim.show.draw.flatten import simplify
 from sim.show.draw.layout import BESIDE_PLOT, IN_PLOT, Box, Ink, Margins, Page, Room, View, page_for
 from sim.show.draw.legend import Entry, draw_axes, draw_frame, draw_header
+from sim.show.draw.letters import text_width
 from sim.show.draw.sheet import AnyCanvas, Sheet
 from sim.show.draw.style import Paint
 from sim.show.pictures.cut.legend import Drawn, Surroundings, draw_legends, entries, finding_entries, rows_for
@@ -132,7 +133,7 @@ def draw_table(canvas: Canvas, page: Page, say: Words, travel_um: Floats, runs_p
     text = say("cut.travel", x=f"{x_mm:g}", y=f"{y_mm:g}")
     left = right - float((high - low)[0]) * scale - style.LEGEND_GAP * unit
     canvas.text((left, 0.72 * style.HEAD * unit), text, size, Paint.GREY, align=1.0)
-    return page.width_px - style.EDGE * unit - left + canvas.text_width(text, size) + style.LEGEND_GAP * unit
+    return page.width_px - style.EDGE * unit - left + text_width(text, size) + style.LEGEND_GAP * unit
 
 
 def _corners(box_px: Floats) -> Floats:

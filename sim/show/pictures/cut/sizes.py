@@ -20,6 +20,7 @@ from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.flatten import along, bounds_um, flatten
 from sim.show.draw.layout import Box, Margins, Page, box_around
+from sim.show.draw.letters import text_width
 from sim.show.draw.style import Paint
 from sim.show.pictures.cut.subject import Board, Cut
 from sim.show.texts import Words
@@ -263,7 +264,7 @@ def _draw_size(canvas: Canvas, unit: float, line: Floats, texts: Sequence[str], 
     size, arrow = style.SIZE * unit, style.SIZE_ARROW * unit
     length = float(np.abs(line[1] - line[0]).max())
     ahead = (line[1] - line[0]) / length
-    wide = max(canvas.text_width(text, size) for text in texts) + size / 2
+    wide = max(text_width(text, size) for text in texts) + size / 2
     high = 1.2 * size * len(texts)
     needed = float(np.abs(ahead) @ (wide, high))
     fits = length >= needed + 2.6 * arrow
@@ -294,7 +295,7 @@ def _draw_round(board: Board, round_: Round, path: Toolpath) -> None:
     canvas, page = board.canvas, board.page
     size, unit, paint = style.SIZE * page.unit, page.unit, Paint.ERROR if round_.off else Paint.SIZE
     text = round_.text(board.say)
-    wide = canvas.text_width(text, size) + size / 2
+    wide = text_width(text, size) + size / 2
     for arc, outward in _leaders(page, round_, path):
         reach = style.LEADER * unit + float(np.abs(outward) @ (wide, 1.2 * size)) / 2
         box = board.room.take_clear([box_around(arc + outward * reach, wide, 1.2 * size)])

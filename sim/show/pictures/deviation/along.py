@@ -17,6 +17,7 @@ from sim.show.draw.canvas import Canvas
 from sim.show.draw.chart import AxisRange, Chart, columns_of, draw_band, draw_chart, draw_line, stretches, tick_texts
 from sim.show.draw.layout import Box, number_stride
 from sim.show.draw.legend import Entry, dashes, draw_at_foot, in_rows, stroke, swatch
+from sim.show.draw.letters import text_width
 from sim.show.draw.sheet import AnyCanvas, Sheet
 from sim.show.draw.style import Paint
 from sim.show.pictures.deviation.frame import Samples, mark_place, range_shown, titled, tolerance_text, um, write_names
@@ -114,7 +115,7 @@ def draw_borders(canvas: Canvas, chart: Chart, toolpath: Toolpath, height: float
         box = Box(float(x[row]), top + 0.8 * height, float(x[row + 1]), top + 0.95 * height)
         canvas.box(box, Paint.JUMP, Paint.JUMP, 0.0)
     names = toolpath.source.names.of_rows()
-    shown_numbers = numbers(canvas, x, names, unit)
+    shown_numbers = numbers(x, names, unit)
     borders = x[1:-1] if all_show(chart, toolpath) else x[[row + 1 for row, _ in shown_numbers]]
     for at in borders.tolist():
         line = np.array([[at, chart.frame.top - 0.2 * height], [at, chart.frame.bottom]])
@@ -123,7 +124,7 @@ def draw_borders(canvas: Canvas, chart: Chart, toolpath: Toolpath, height: float
         canvas.text((at, top + 0.42 * height), names[row], style.NUMBER * unit, Paint.INK, align=0.5)
 
 
-def numbers(canvas: Canvas, x: Floats, names: list[str], unit: float) -> list[tuple[int, float]]:
+def numbers(x: Floats, names: list[str], unit: float) -> list[tuple[int, float]]:
     """Rows whose numbers show, each with the middle of its number, px; `x` (n + 1,) px are the borders of the blocks.
 
     `names` has for each row the number as the listing has it.
@@ -133,7 +134,7 @@ def numbers(canvas: Canvas, x: Floats, names: list[str], unit: float) -> list[tu
     blocks = len(x) - 1
     stride = number_stride(blocks)
     rows = np.arange(stride - 1, blocks, stride)
-    wide = np.array([canvas.text_width(names[row], style.NUMBER * unit) + APART * unit for row in rows.tolist()])
+    wide = np.array([text_width(names[row], style.NUMBER * unit) + APART * unit for row in rows.tolist()])
     middle = np.clip((x[rows] + x[rows + 1]) / 2.0, x[0] + wide / 2.0, x[-1] - wide / 2.0)
     taken: list[int] = []
     for at in np.argsort(x[rows] - x[rows + 1], kind="stable").tolist():

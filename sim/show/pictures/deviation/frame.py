@@ -19,6 +19,7 @@ from sim.show.draw.canvas import Canvas
 from sim.show.draw.chart import AxisRange, Chart, range_of
 from sim.show.draw.layout import Box
 from sim.show.draw.legend import draw_header, elide
+from sim.show.draw.letters import text_width
 from sim.show.draw.sheet import AnyCanvas, Sheet
 from sim.show.draw.style import Paint
 from sim.show.texts import Words
@@ -142,7 +143,7 @@ def write_names(canvas: Canvas, chart: Chart, x_name: str, y_name: str) -> None:
     """Write the names of the axes inside their ends, on the page's own colour: nothing runs through them."""
     frame, size = chart.frame, style.TICK * chart.unit
     for name, align, y in ((x_name, 1.0, frame.bottom - 0.9 * size), (y_name, 0.0, frame.top + 0.9 * size)):
-        wide = canvas.text_width(name, size)
+        wide = text_width(name, size)
         left = frame.left + 0.5 * size if align == 0.0 else frame.right - 0.5 * size - wide
         plate = Box(left - 0.2 * size, y - 0.65 * size, left + wide + 0.2 * size, y + 0.65 * size)
         canvas.box(plate, Paint.PAGE, Paint.PAGE, 0.0)
@@ -153,7 +154,7 @@ def mark_place(canvas: Canvas, frame: Box, place: Floats, text: str, unit: float
     """Ring a place (2,) px and write beside it, on the side where the frame has more room."""
     canvas.ring(place, style.MARK * unit, Paint.ERROR, style.MARK_WIDTH * unit)
     size, gap = style.TEXT * unit, 2.0 * style.MARK * unit
-    wide, (x, y) = canvas.text_width(text, size) + 0.8 * size, place.tolist()
+    wide, (x, y) = text_width(text, size) + 0.8 * size, place.tolist()
     left = x - gap - wide if x > (frame.left + frame.right) / 2.0 else x + gap
     canvas.box(Box(left, y - 0.75 * size, left + wide, y + 0.75 * size), Paint.PAGE, Paint.ERROR, unit)
     canvas.text((left + wide / 2.0, y), text, size, Paint.INK, align=0.5)
@@ -163,7 +164,7 @@ def write_caption(canvas: Canvas, box: Box, lines: tuple[str, str], unit: float,
     """Write two lines into a box, the middle of what is too long left out; `align` as that of a text."""
     looks = ((lines[0], style.TEXT, 0.28, Paint.INK), (lines[1], style.NUMBER, 0.72, Paint.GREY))
     for text, size, share, paint in looks:
-        line = elide(canvas, text, size * unit, box.right - box.left)
+        line = elide(text, size * unit, box.right - box.left)
         at = box.left + align * (box.right - box.left), box.top + share * (box.bottom - box.top)
         canvas.text(at, line, size * unit, paint, align=align)
 

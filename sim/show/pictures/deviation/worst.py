@@ -23,6 +23,7 @@ from sim.show.draw.chart import stretches
 from sim.show.draw.flatten import CHORD_PX, bounds_um, cut_runs, flatten, simplify
 from sim.show.draw.layout import Box, Ink, Room, View, box_around, centred, nice_below, ticks
 from sim.show.draw.legend import Entry, draw_at_foot, in_rows, stroke
+from sim.show.draw.letters import text_width
 from sim.show.draw.sheet import AnyCanvas, Sheet
 from sim.show.draw.style import Paint
 from sim.show.pictures.deviation.frame import Samples, titled, um, write_caption
@@ -221,7 +222,7 @@ def _draw_size(canvas: Canvas, box: Box, view: View, inset: Inset, unit: float) 
         canvas.arrow(tip, way if inside else -way, arrow, Paint.ERROR)
     text = um(float(np.hypot(*(inset.place_um - inset.foot_um))))
     size = style.NOTE * unit
-    half = np.array([canvas.text_width(text, size) / 2.0 + 0.3 * size, 0.7 * size])
+    half = np.array([text_width(text, size) / 2.0 + 0.3 * size, 0.7 * size])
     reach = tail + 0.6 * size + float(np.abs(ahead) @ half)
     low = np.array([box.left, box.top]) + half
     high = np.array([box.right, box.bottom]) - half

@@ -22,6 +22,7 @@ from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.chart import AxisRange, Chart, range_of
 from sim.show.draw.layout import MOST_NUMBERS, Box, number_stride
+from sim.show.draw.letters import text_width
 from sim.show.draw.style import Paint, paint_of_pass
 from sim.show.texts import Words
 from sim.table.history import Envelope, History
@@ -101,7 +102,7 @@ def draw_pass(canvas: Canvas, box: Box, number: int, size: float) -> None:
     """Draw a pass as a box in its tone, with its number where that has room."""
     paint, text = paint_of_pass(number), str(number)
     canvas.box(box, paint, paint, 0.0)
-    if canvas.text_width(text, size) < box.right - box.left:
+    if text_width(text, size) < box.right - box.left:
         middle = ((box.left + box.right) / 2.0, (box.top + box.bottom) / 2.0)
         canvas.text(middle, text, size, Paint.INK, align=0.5)
 
@@ -127,7 +128,7 @@ def _draw_labels(canvas: Canvas, chart: Chart, labels: list[_Label], y: float) -
     size = style.NUMBER * chart.unit
     taken: list[tuple[float, float]] = []
     for label in labels[:MOST_NUMBERS]:
-        half = canvas.text_width(label.text, size) / 2.0
+        half = text_width(label.text, size) / 2.0
         x = min(max(label.x, chart.frame.left + half), chart.frame.right - half)
         begin, end = x - half - 0.4 * size, x + half + 0.4 * size
         if all(end <= left or right <= begin for left, right in taken):

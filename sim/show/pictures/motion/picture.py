@@ -249,7 +249,7 @@ def _draw_standing(canvas: Canvas, chart: Chart, since: float, say: Words) -> No
     left = float(chart.x_px(since))
     canvas.box(frame._replace(left=left), Paint.GRID, Paint.FRAME, style.GRID_WIDTH * chart.unit)
     text = say("motion.stands")
-    if canvas.text_width(text, size) < frame.right - left:
+    if text_width(text, size) < frame.right - left:
         middle = (left + frame.right) / 2.0, (frame.top + frame.bottom) / 2.0
         canvas.text(middle, text, size, Paint.GREY, align=0.5)
 
@@ -263,11 +263,11 @@ class _LevelText(NamedTuple):
     inside: bool
 
 
-def _level_text(canvas: Canvas, chart: Chart, level: Level, say: Words) -> _LevelText:
+def _level_text(chart: Chart, level: Level, say: Words) -> _LevelText:
     size = style.TICK * chart.unit
     inside = any(chart.y.low <= value <= chart.y.high for value in (level.value, -level.value))
     text = level.text(say) if inside else say("motion.outside", limit=level.text(say))
-    return _LevelText(level, text, canvas.text_width(text, size) + (SAMPLE * chart.unit + 0.4 * size) * inside, inside)
+    return _LevelText(level, text, text_width(text, size) + (SAMPLE * chart.unit + 0.4 * size) * inside, inside)
 
 
 def _draw_name(canvas: Canvas, chart: Chart, panel: Panel, say: Words, y: float) -> None:
@@ -275,9 +275,9 @@ def _draw_name(canvas: Canvas, chart: Chart, panel: Panel, say: Words, y: float)
     frame, unit, size = chart.frame, chart.unit, style.TICK * chart.unit
     name = say(panel.name)
     canvas.text((frame.left, y), name, size, Paint.INK)
-    told_levels = [_level_text(canvas, chart, level, say) for level in panel.levels]
+    told_levels = [_level_text(chart, level, say) for level in panel.levels]
     left = frame.right + size - sum(each.width + size for each in told_levels)
-    if left < frame.left + canvas.text_width(name, size) + size:
+    if left < frame.left + text_width(name, size) + size:
         return
     for each in told_levels:
         canvas.text((left + each.width, y), each.text, size, Paint.GREY, align=1.0)
