@@ -422,6 +422,10 @@ def test_a_drawing_is_dropped_made_a_program_and_run_against(
         shown.page.wait_for_selector("#drawing:not([hidden])")
         assert shown.page.inner_text("#drawing-name") == "part.dxf"
         shown.page.fill("#passes", "0.15 0.1")
+        shown.page.click("#make")  # without a tab the part comes free with the first pass
+        shown.waits_for("fail")
+        assert shown.page.inner_text("#drawing-told li:first-child").startswith("not proved")
+        assert "3 in “tab mm” holds it" in shown.page.inner_text("#drawing-told")
         shown.page.fill("#tab", "1")
         shown.page.click("#make")
         shown.waits_for("pass")

@@ -62,13 +62,13 @@ def _make(request: PageRequest) -> dict[str, Any]:
     done = made_program(drawing, to_make.making, wanted, scenario, progress)
     if not isinstance(done, MadeProgram):
         why = printable_entry(why_refused(done.refusal))
-        return _written_answer(request, {"program": None, "told": [why], "is_proved": False})
+        return _written_answer(request, {"program": None, "told": [why], "verdict": "fail"})
     lines = [Bilingual(*both) for both in zip(*(_summary(done, language) for language in LANGUAGES), strict=True)]
     data = done.data if done.is_proved else remarked(done, [*against(done, "en")], wanted).data
     drafted: DraftedEntry = {
         "program": file_text(file.name, read_file(data)),
         "told": list(map(printable_entry, lines)),
-        "is_proved": done.is_proved,
+        "verdict": done.proof.verdict if done.proof else "incomplete",
     }
     return _written_answer(request, drafted)
 

@@ -37,11 +37,11 @@ class LookedEntry(TypedDict):
 
 
 class DraftedEntry(TypedDict):
-    """The program that was made of a drawing; none where it was refused, and what there is to say."""
+    """The program that was made of a drawing, none where it was refused; what there is to say, and of its proof."""
 
     program: FileTextEntry | None
     told: list[SaidEntry]
-    is_proved: bool
+    verdict: Annotated[str, one_of("pass", "incomplete", "fail")]
 
 
 class FindingEntry(TypedDict):

@@ -107,11 +107,11 @@
  */
 
 /**
- * The program that was made of a drawing; none where it was refused, and what there is to say.
+ * The program that was made of a drawing, none where it was refused; what there is to say, and of its proof.
  * @typedef {object} Drafted
  * @property {FileText | null} program
  * @property {Said[]} told
- * @property {boolean} is_proved
+ * @property {"pass" | "incomplete" | "fail"} verdict
  */
 
 /**

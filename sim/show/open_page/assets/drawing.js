@@ -5,7 +5,7 @@ import * as language from "../../html/assets/language.js";
 
 /** @import { Said } from "../../html/assets/language.js" */
 /** @import { Curves } from "../../replay/assets/document.js" */
-/** @import { FileText, RunState } from "./data.js" */
+/** @import { Drafted, FileText, RunState } from "./data.js" */
 
 /**
  * What the drawing is told, and whom it tells.
@@ -31,6 +31,11 @@ export function wireDrawing(around) {
   const tab = element("#tab", HTMLInputElement);
   let number = "";
   let making = "";
+  /**
+   * The text of the last program that was made, and the verdict of its proof.
+   * @type {{ text: string | null, verdict: Drafted["verdict"] }}
+   */
+  let proved = { text: null, verdict: "pass" };
   let file = "";
   /** @type {Said[]} */
   let made = [];
@@ -100,13 +105,21 @@ export function wireDrawing(around) {
       show();
       await look();
     },
+    /**
+     * The verdict of the proof of a text; pass where it is not the program that was made of the drawing.
+     * @param {string} now
+     */
+    verdictOf: (now) => (now === proved.text ? proved.verdict : "pass"),
     /** A program was made of it. */
     async done() {
       try {
-        const { program, told, is_proved: isProved } = await asked.drafted(making);
-        if (program) around.begin(program);
+        const { program, told, verdict } = await asked.drafted(making);
+        if (program) {
+          proved = { text: program.text, verdict };
+          around.begin(program);
+        }
         made = told;
-        list.className = isProved ? "proved" : "unproved";
+        list.className = verdict === "pass" ? "proved" : "unproved";
         show();
       } catch {
         around.tell("no-server");

@@ -156,8 +156,8 @@ function show() {
     const pages = { ...known.answer.pages, ...run.result()?.pages };
     showFound(list, found, known.text, { go, mend: ({ edits }) => mend(edits), pages });
     showSize(element("#size", HTMLElement), element("#figures", HTMLElement), known.answer);
-    const ran = run.result();
-    status.judge(known.answer, ran ? worse(known.answer.verdict, ran.verdict) : known.answer.verdict);
+    const ran = run.result()?.verdict ?? "pass";
+    status.judge(known.answer, worse(known.answer.verdict, worse(ran, drawing.verdictOf(known.text))));
   } else {
     list.replaceChildren();
     element("#sizes", HTMLElement).hidden = true;

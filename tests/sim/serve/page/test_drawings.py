@@ -141,7 +141,7 @@ def test_a_program_is_made_of_it_that_is_proved(served: OpenedPage, dxf: bytes) 
     number = came(served, dxf)
     assert draft(served, number)["state"] == "done"
     made = json.loads(served.ask("drafted", json.dumps({"drawing": number})).body)
-    assert (made["is_proved"], made["told"][0]) == (True, {"en": "proved", "zh": "验证通过"})
+    assert (made["verdict"], made["told"][0]) == ("pass", {"en": "proved", "zh": "验证通过"})
     assert made["program"]["name"] == "plate.3b"
     asked = {"name": "plate.3b", "text": made["program"]["text"], "number": "", "machine": "", "thickness_mm": ""}
     checked = json.loads(served.ask("check", json.dumps(asked)).body)
@@ -159,7 +159,7 @@ def test_passes_and_language_of_the_program_are_those_of_the_form(drawing: Path,
 
 def test_a_program_that_is_not_proved_says_so_at_its_head(drawing: Path, tmp_path: Path) -> None:
     found = made(drawing, tmp_path / "made.json", offset_mm="0.2 0.1")  # the first pass sets the part free
-    assert (found["is_proved"], found["told"][0]["en"]) == (False, "not proved: the program fails its own proof")
+    assert (found["verdict"], found["told"][0]["en"]) == ("fail", "not proved: the program fails its own proof")
     assert "3B406" in found["program"]["text"][:400]
     (todo,) = [text for text in found["told"] if text["en"].startswith("what to do")]
     assert "passes: 3 in “tab mm” holds it" in todo["en"]
