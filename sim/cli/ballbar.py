@@ -6,10 +6,11 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from parser.findings.errors import Message
-from sim.cli.options import Length
+from sim.cli.options import Length, setting_options, with_options
 from sim.cli.scenario_options import ENGINE_OPTION
 from sim.cli.spoken import Spoken, spoken, words
 from sim.cli.spoken.values import FilePath, offer_machines
+from sim.setup.settable import INTERPOLATOR
 
 if TYPE_CHECKING:
     from sim.run.ballbar.circle import Ballbar
@@ -32,10 +33,7 @@ class Speed(click.ParamType):  # type: ignore[type-arg]  # generic in newer clic
 @click.option("--radius", type=Length(), default="50mm", show_default=True)
 @click.option("--feed", type=Speed())
 @click.option("--machine", default="dk7740", show_default=True, metavar="NAME|FILE", shell_complete=offer_machines)
-@click.option(
-    "--interpolator",
-    type=click.Choice(["point-by-point", "card"]),
-)
+@with_options(setting_options([INTERPOLATOR]))
 @ENGINE_OPTION
 @click.option("--tolerance", type=Length())
 @click.option(

@@ -31,7 +31,7 @@ from sim.setup.part import (
     Offset,
     OffsetPass,
 )
-from sim.setup.settable import SETTABLE, with_settings
+from sim.setup.settable import INTERPOLATOR, SETTABLE, with_settings
 from sim.setup.toml.keys import Key
 from sim.setup.toml.reader import number
 from sim.show.terminal.finding import finding_lines
@@ -59,11 +59,7 @@ COMPARISON: Final = (LAYER, TOLERANCE, FIT, CORNERS)
 _OPTIONS = (
     *READ_WITH,
     click.option("--machine", metavar="NAME|FILE", shell_complete=offer_machines),
-    *setting_options(SETTABLE.values()),
-    click.option(
-        "--interpolator",
-        type=click.Choice(["point-by-point", "card"]),
-    ),
+    *setting_options([INTERPOLATOR, *SETTABLE.values()]),
     click.option(
         "--offset",
         type=OrRegister(Lengths()),
@@ -71,9 +67,6 @@ _OPTIONS = (
     ),
     *setting_options([SIDE]),
     ENGINE_OPTION,
-    click.option("--past-stop", is_flag=True),
-    click.option("--kerf", is_flag=True),
-    click.option("--open", "may_stay_open", is_flag=True),
     click.option(
         "--drawing",
         type=FilePath(path_type=Path, dir_okay=False),
@@ -117,9 +110,6 @@ class Overrides(NamedTuple):
     engine: "TableEngine | None" = None
     offset: tuple["tuple[float, ...] | RegisterSet", ...] = ()
     side: str | None = None
-    past_stop: bool = False
-    kerf: bool = False
-    may_stay_open: bool = False
     drawing: Path | None = None
     comparison: Mapping[str, Any] = MappingProxyType({})
 
@@ -145,9 +135,6 @@ def overridden(path: Path, options: Overrides) -> "Scenario":
     scenario = replace(
         with_settings(scenario, given),
         offset=_offset(scenario.offset, offsets.plain, options.side),
-        past_stop=scenario.past_stop or options.past_stop,
-        kerf=scenario.kerf or options.kerf,
-        may_stay_open=scenario.may_stay_open or options.may_stay_open,
         drawing=_drawing(scenario.drawing, options),
     )
     return _stepping_by(scenario, options.interpolator)

@@ -19,7 +19,7 @@ from parser.text.encoding import printable
 from parser.units import from_mm
 from sim.setup.dialect import READ_WITH, chosen_dialect
 from sim.setup.expectations import EXPECT, Expectation, expect_section, read_expectation
-from sim.setup.machine.machine import INTERPOLATOR, Machine, load_machine
+from sim.setup.machine.machine import Machine, load_machine
 from sim.setup.making import LAYER, PROGRAM, LayerWish, ToMake, read_to_make
 from sim.setup.obstacles import CLAMPS, Clamp, Outline, read_clamps
 from sim.setup.part import (
@@ -40,8 +40,9 @@ from sim.setup.part import (
     read_offset,
 )
 from sim.setup.quiz import QUIZ, Question, read_quiz
+from sim.setup.settable import INTERPOLATOR, KERF, OPEN, PAST_STOP
 from sim.setup.toml.keys import Key, Section, WrittenSection
-from sim.setup.toml.kinds import FileName, Name, Number, TablePlace, Text, Truth
+from sim.setup.toml.kinds import FileName, Name, Number, TablePlace, Text
 from sim.setup.toml.reader import Bound, load_toml, number, section
 from sim.setup.wire import DEFAULT_WIRE, WIRE, Wire, read_wire
 
@@ -197,12 +198,12 @@ TOP = Section(
         Key("program", FileName(), default=_usual_names()[0], get=_plain_program),
         Key("machine", Text(), default=DEFAULT_MACHINE, get=lambda _: MACHINE_FILE),
         *READ_WITH,
-        Key("interpolator", INTERPOLATOR, default=None, get=lambda _: None),  # the machine file says it
+        INTERPOLATOR,
         Key("start_mm", TablePlace(), default=None),
-        Key("open", Truth(), "may_stay_open", default=False),
-        Key("past_stop", Truth(), default=False),
+        OPEN,
+        PAST_STOP,
         Key("trace_spacing_um", Number(TRACE_SPACING_UM, "µm"), default=DEFAULT_TRACE_SPACING_UM),
-        Key("kerf", Truth(), default=False),
+        KERF,
     ),
     form="top",
 )

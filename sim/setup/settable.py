@@ -2,20 +2,35 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, Final, TypeVar
+from typing import TYPE_CHECKING, Any, Final, TypeVar, get_args
 
+from controller.host.entries import Interpolation
 from sim.setup.part import WORK
 from sim.setup.toml.keys import Key
+from sim.setup.toml.kinds import OneOf, Truth
 from sim.setup.wire import WIRE
 
 Whole = TypeVar("Whole", bound="DataclassInstance")
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance
 
-    from sim.setup.scenario import Scenario
+
+INTERPOLATOR: Final = Key(
+    "interpolator",
+    OneOf(get_args(Interpolation)),
+    default=None,
+    get=lambda _: None,  # the machine file says it
+    option="--interpolator",
+)
+"""In place of the machine's own, whatever else stands in its file."""
+PAST_STOP: Final = Key("past_stop", Truth(), default=False, option="--past-stop")
+KERF: Final = Key("kerf", Truth(), default=False, option="--kerf")
+OPEN: Final = Key("open", Truth(), "may_stay_open", default=False, option="--open")
 
 
 def _settable() -> Iterator[tuple[str, Key]]:
+    for key in (PAST_STOP, KERF, OPEN):
+        yield key.path, key
     for section in (WORK, WIRE):
         for key in section.keys:
             if key.option:
@@ -28,7 +43,7 @@ FIELDS: Final = {key.form: key for key in SETTABLE.values() if key.form}
 """Those that have a field of the page, by its name."""
 
 
-def with_settings(scenario: "Scenario", values: Mapping[str, Any]) -> "Scenario":
+def with_settings(scenario: Whole, values: Mapping[str, Any]) -> Whole:
     """The scenario with values, as they are inside, in place of its own, by the names of their keys."""
     return _with(scenario, {path: values[key.name] for path, key in SETTABLE.items() if key.name in values})
 

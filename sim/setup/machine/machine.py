@@ -12,7 +12,7 @@ from collections.abc import Callable, Mapping
 from importlib import resources
 from itertools import pairwise
 from pathlib import Path
-from typing import Any, Literal, NamedTuple, get_args
+from typing import Any, Literal, NamedTuple
 
 from controller.card.core.settings import UM_S3_PER_PULSE_MS3, CardSettings
 from controller.host.entries import Interpolation
@@ -22,6 +22,7 @@ from parser.findings.errors import Message, SettingsError
 from parser.units import from_mm
 from sim.setup.dialect import REGISTERS
 from sim.setup.obstacles import ARM, Outline
+from sim.setup.settable import INTERPOLATOR
 from sim.setup.toml.keys import Key, Section, WrittenSection
 from sim.setup.toml.kinds import (
     DEGREES_AS_RAD,
@@ -254,8 +255,6 @@ def _rule(controller: ControllerModel) -> str:
     return next(name for name, rule in _JUNCTIONS.items() if isinstance(controller.limits.junction, rule))
 
 
-INTERPOLATOR = OneOf(get_args(Interpolation))
-
 CONTROLLER = Section(
     "controller",
     (
@@ -274,7 +273,7 @@ CONTROLLER = Section(
         Key("junction", OneOf(tuple(_JUNCTIONS)), default="through", get=_rule),
         Key("corner_feed_mm_s", Number(Bound(1e-6, 1e3), "mm/s", MM_AS_UM), default=None, get=_of_rule("speed_um_s")),
         Key("junction_deviation_um", Number(Bound(1e-3, 1e3), "µm"), default=None, get=_of_rule("deviation_um")),
-        Key("interpolator", INTERPOLATOR, "interpolation", default="point-by-point"),
+        Key("interpolator", INTERPOLATOR.kind, "interpolation", default="point-by-point"),
         REGISTERS,
     ),
     fills="controller",

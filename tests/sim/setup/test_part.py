@@ -134,7 +134,7 @@ def test_options_take_the_place_of_the_scenarios_values(tmp_path: Path) -> None:
         DrawingTarget(tmp_path / "a.dxf", "CUT"),
     )
     other = NONE._replace(
-        side="right", kerf=True, drawing=Path("b.dxf"), comparison={"tolerance_um": 2.0, "fit": False}
+        side="right", settings={"kerf": True}, drawing=Path("b.dxf"), comparison={"tolerance_um": 2.0, "fit": False}
     )
     scenario = overridden(folder, other)
     assert scenario.offset == Offset((OffsetPass(100.0),), Side.RIGHT)

@@ -19,9 +19,11 @@ from sim.setup.key_tables import scenario_schema
 from sim.setup.making import Making, ToMake, Writing
 from sim.setup.settable import FIELDS, SETTABLE
 from sim.setup.toml.keys import Key
-from sim.setup.toml.kinds import Number
+from sim.setup.toml.kinds import Number, Truth
 from sim.show.open_page.page import open_page
 
+NUMBERS = pytest.mark.parametrize("path", [path for path, key in SETTABLE.items() if isinstance(key.kind, Number)])
+FLAGS = pytest.mark.parametrize("path", [path for path, key in SETTABLE.items() if isinstance(key.kind, Truth)])
 ROWS = pytest.mark.parametrize("path", SETTABLE)
 NOTHING = {parameter(key): None for key in (*SETTABLE.values(), *COMPARISON)}
 PROGRAM = Path("part.3b")
@@ -42,18 +44,29 @@ def length_um(key: Key, value: float) -> float:
     return value * 1000.0 if kind_of(key).unit == "mm" else value
 
 
-@ROWS
+@NUMBERS
 def test_an_option_takes_the_place_of_the_files_value(path: str) -> None:
     key = SETTABLE[path]
     scenario = overridden(PROGRAM, overrides_of({**NOTHING, parameter(key): length_um(key, middle(key))}))
     assert operator.attrgetter(path)(scenario) == kind_of(key).inside(middle(key))
 
 
-@ROWS
+@NUMBERS
 def test_an_option_out_of_its_bounds_is_named(path: str) -> None:
     key = SETTABLE[path]
     with pytest.raises(SettingsError, match=rf"{key.option} in {kind_of(key).unit} is"):
         overridden(PROGRAM, overrides_of({**NOTHING, parameter(key): length_um(key, kind_of(key).bound.high * 2.0)}))
+
+
+@FLAGS
+@pytest.mark.parametrize("own", ["", "true", "false"])
+def test_a_flag_makes_it_true_whatever_the_file_says(path: str, own: str, tmp_path: Path) -> None:
+    (tmp_path / "program.3b").write_text("B10B0B10GXL1\nDD\n", "ascii")
+    (tmp_path / "scenario.toml").write_text(f"{SETTABLE[path].name} = {own}\n" if own else "", "utf-8")
+    without = overridden(tmp_path, overrides_of(dict(NOTHING)))
+    assert operator.attrgetter(path)(without) is (own == "true")
+    given = overridden(tmp_path, overrides_of({**NOTHING, parameter(SETTABLE[path]): True}))
+    assert operator.attrgetter(path)(given) is True
 
 
 @ROWS
@@ -64,8 +77,10 @@ def test_commands_that_run_a_scenario_offer_it(path: str, command: str) -> None:
 
 @ROWS
 def test_the_schema_of_scenarios_has_it(path: str) -> None:
-    tables = scenario_schema()["properties"].values()
-    assert any(SETTABLE[path].name in table.get("properties", {}) for table in tables)
+    top = scenario_schema()["properties"]
+    assert SETTABLE[path].name in top or any(
+        SETTABLE[path].name in table.get("properties", {}) for table in top.values()
+    )
 
 
 @pytest.mark.parametrize("form", FIELDS)
