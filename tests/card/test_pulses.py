@@ -235,6 +235,7 @@ def steps_left(blocks):
     return len(entries.steps_of(blocks)) - blocks[0].done if blocks else 0
 
 
+@pytest.mark.deeper
 def test_a_stretch_cut_at_the_border_of_blocks_keeps_every_step():
     """By rounding, the last step of a block may come due just behind the end of the block."""
     rng = np.random.default_rng(7)

@@ -339,6 +339,7 @@ def limited(limit_wiring="as-sensed", **card_settings):
     return Watched(switches=switches, stpacc_pulse_ms2=SOFT, **card_settings)
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize(("end", "limit", "bit"), [(3000.0, 500.0, POSITIVE), (-3000.0, -400.0, NEGATIVE)])
 def test_a_limit_flags_at_once_and_brakes(end, limit, bit):
     watched = limited()
@@ -565,6 +566,7 @@ def test_an_edge_in_the_middle_of_a_stop_is_captured():
     assert card.GT_GetCapt(1) == (0, 500)
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize("behind", ["nothing", "line", "block"])
 def test_a_new_plan_within_the_last_servo_period_before_a_wait_loses_no_pulse(behind: str) -> None:
     ends = []

@@ -318,6 +318,7 @@ def wandering(rng: random.Random) -> tuple[complex, list[Leg]]:
     return start, legs
 
 
+@pytest.mark.alike(2)
 @pytest.mark.parametrize("rules", [TEXTBOOK, LENGTHEN, ROUND, LINUXCNC, CompensationRules(startup="own-normal")])
 def test_agrees_with_a_plain_way_from_corner_to_corner(rules: CompensationRules) -> None:
     for seed in range(80):

@@ -123,7 +123,7 @@ def piecewise(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -
     monkeypatch.setattr(equal_time, "_AT_ONCE", at_once)
 
 
-@pytest.mark.alike(4)
+@pytest.mark.alike(2)
 @pytest.mark.usefixtures("piecewise")
 @pytest.mark.parametrize("seed", range(6))
 def test_pulses_are_those_of_a_loop_over_every_period(seed: int) -> None:

@@ -163,6 +163,7 @@ def shifted(curves: Curves, x: float, y: float) -> Curves:
     return Curves(**{name: column + np.array([x, y]) if name in by else column for name, column in columns.items()})
 
 
+@pytest.mark.deeper
 def test_the_deepest_gouge_is_as_deep_as_samples_of_the_path_say() -> None:
     compared = 0
     for seed in range(60):

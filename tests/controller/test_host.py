@@ -78,7 +78,7 @@ def test_stepped_pulses_are_those_of_the_plan(capacity: int) -> None:
     assert pulses.t_s == pytest.approx(wanted.t_s, abs=1e-6)  # s
 
 
-@pytest.mark.alike(2)
+@pytest.mark.alike(1)
 @pytest.mark.parametrize("rule", [Through(), StopEach(), JunctionDeviation(0.1)])
 @pytest.mark.parametrize("interpolation", ["point-by-point", "card"])
 @settings(max_examples=15, deadline=None)

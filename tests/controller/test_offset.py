@@ -122,6 +122,7 @@ def test_paths_are_whole_and_arcs_exact(seed: int) -> None:
         assert not set(path.vanished.tolist()) & set(row[path.made == RowOrigin.SHIFTED].tolist())
 
 
+@pytest.mark.deeper
 def test_back_by_the_same_offset_is_the_contour_again() -> None:
     compared = 0
     for seed in range(400):
@@ -142,6 +143,7 @@ def test_back_by_the_same_offset_is_the_contour_again() -> None:
     assert compared > 150
 
 
+@pytest.mark.deeper
 def test_neither_start_nor_sense_of_a_contour_matters() -> None:
     for seed in cases(130, 800):
         shape, offset, side = random_shape(seed)
@@ -476,6 +478,7 @@ def test_a_tight_bend_of_chords_leaves_its_sides_crossing(chords: int) -> None:
     assert run.distance(drawing) == pytest.approx(100.0, abs=0.01)
 
 
+@pytest.mark.deeper
 def test_steps_of_a_um_and_turns_of_a_thousandth_change_nothing_much() -> None:
     rng = random.Random(3)
     for _ in range(300):

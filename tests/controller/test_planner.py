@@ -135,6 +135,7 @@ def test_a_wait_stands_still_between_start_speeds() -> None:
     assert plan.at(arrived + 2.0 + 1e-9).speed_um_s == pytest.approx(5.0, abs=1e-5)
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize("jerk", [math.inf, 1e4])
 def test_a_point_put_into_a_row_changes_nothing(jerk: float) -> None:
     for seed in range(120):
@@ -148,6 +149,7 @@ def test_a_point_put_into_a_row_changes_nothing(jerk: float) -> None:
         assert cut.at(t).along_um == pytest.approx(whole.at(t).along_um, abs=1e-8 * limits.length_um.sum())
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize("jerk", [math.inf, 1e4])
 def test_rows_run_backwards_take_the_same_time(jerk: float) -> None:
     for seed in range(120):

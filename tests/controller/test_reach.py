@@ -103,7 +103,7 @@ def random_case(rng: random.Random) -> tuple[Shape, float, bool]:
     return shape, f, rng.random() < 0.7
 
 
-@pytest.mark.alike(2)
+@pytest.mark.alike(1)
 @pytest.mark.parametrize("seed", range(8))
 def test_the_loops_are_those_of_shapely_from_fine_chords(seed: int) -> None:
     rng = random.Random(seed)
@@ -115,6 +115,7 @@ def test_the_loops_are_those_of_shapely_from_fine_chords(seed: int) -> None:
         assert_as_judged(contour, f, inside, reached)
 
 
+@pytest.mark.deeper
 def test_the_area_is_that_of_shapelys_buffer_within_its_own_error() -> None:
     rng = random.Random(11)
     for _ in range(200):
@@ -246,6 +247,7 @@ def test_backwards_on_the_other_side_the_loops_are_the_same_backwards() -> None:
         assert len(one.loops) == len(other.loops)
 
 
+@pytest.mark.deeper
 def test_offset_and_offset_back_is_the_contour_where_nothing_vanished() -> None:
     rng = random.Random(6)
     whole = 0
@@ -273,7 +275,7 @@ def split(contour: Curves, parts: int) -> Curves:
     return pen.path().picked(slice(None))
 
 
-@pytest.mark.alike(2)
+@pytest.mark.alike(1)
 @pytest.mark.parametrize("side", list(Side))
 @pytest.mark.parametrize("f", [10.0, 100.0, 130.0])
 def test_lines_in_collinear_parts_and_in_blocks_of_a_micrometre(f: float, side: Side) -> None:

@@ -57,7 +57,7 @@ def test_each_stretch_takes_the_time_that_ruckig_finds(jerk: float) -> None:
         assert time == pytest.approx(ruckig_time(one_row(length, speed, a, first, last), jerk), rel=1e-9)
 
 
-@pytest.mark.alike(2)
+@pytest.mark.alike(1)
 @pytest.mark.parametrize("jerk", [1e2, 1e4, 1e6, 1e9])
 def test_every_plan_under_a_jerk_limit_is_lawful(jerk: float) -> None:
     for seed in range(250):
@@ -78,6 +78,7 @@ def test_no_border_could_be_faster() -> None:
             assert (lengths > stretches.length_um)[max(border - 1, 0) : border + 1].any()
 
 
+@pytest.mark.deeper
 def test_without_a_jerk_to_speak_of_the_plan_is_that_of_constant_acceleration() -> None:
     for seed in range(100):
         limits = random_rows(np.random.default_rng(seed), most=30)

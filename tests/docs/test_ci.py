@@ -145,7 +145,7 @@ def test_every_recipe_is_run_here() -> None:
     ]
 
 
-@pytest.mark.alike(3)
+@pytest.mark.alike(1)
 @pytest.mark.parametrize(
     ("name", "is_sound"), [("shell", True), ("gitlab", True), *((name, False) for name in RECIPES)]
 )
@@ -175,6 +175,7 @@ def test_what_is_known_passes_a_recipe_and_what_is_new_fails_it(shop: Shop) -> N
     assert len(FINDINGS["gitlab"](shop.folder / recipe.files["gitlab"])) == 1
 
 
+@pytest.mark.deeper
 @pytest.mark.deep
 def test_a_shop_adopts_and_then_fails_on_what_is_new_alone(shop: Shop) -> None:
     kinds = [("3b", SOUND), ("3b", WRONG_AXIS), ("3b", OPEN), ("iso", TAPER), ("3b", SOUND.replace("GXL1", "GXL4"))]
@@ -237,6 +238,7 @@ def test_the_action_is_given_inputs_that_it_has_and_its_output_is_taken_up(shop:
     assert len(FINDINGS["sarif"](shop.folder / file)) == 1
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize("hook", ["ours", "own"])
 def test_hooks_check_the_programs_that_pre_commit_names(shop: Shop, hook: str) -> None:
     ours = {one["id"]: one for one in read_yaml((ROOT / ".pre-commit-hooks.yaml").read_text("utf-8"))}

@@ -189,6 +189,7 @@ def shortened(node: Any) -> Any:
     return [shortened(value) for value in node[:3]] if isinstance(node, list) else node
 
 
+@pytest.mark.deeper
 def test_schema_refuses_a_key_more_or_less_anywhere() -> None:
     report = shortened(report_of(ROOT / "scenarios" / "round-hole"))
     assert complaints(report) == []
@@ -200,6 +201,7 @@ def test_schema_refuses_a_key_more_or_less_anywhere() -> None:
             assert is_refused(changed(report, path, lambda node, key=key: node.pop(key))), (*path, key)
 
 
+@pytest.mark.deeper
 def test_schema_refuses_wrong_types_anywhere() -> None:
     report = shortened(report_of(ROOT / "scenarios" / "round-hole"))
     for path in objects(report):

@@ -5,21 +5,14 @@ import re
 import tomllib
 from collections.abc import Iterator
 from functools import cache
-from pathlib import Path
 
 import pytest
 from places import ROOT
+from trees import trees
 
 WORDS = tomllib.loads((ROOT / "docs" / "words.toml").read_text("utf-8"))
 NO_NAMES = frozenset(WORDS["no-names"]["words"])
 NO_VARIABLES = frozenset(WORDS["no-variables"]["words"])
-PACKAGES = ("parser", "controller", "sim", "drycut")
-
-
-@cache
-def trees() -> dict[Path, ast.Module]:
-    files = (path for package in PACKAGES for path in sorted((ROOT / package).rglob("*.py")))
-    return {path.relative_to(ROOT): ast.parse(path.read_text("utf-8")) for path in files}
 
 
 @cache

@@ -10,6 +10,7 @@ from sim.show.index_page import BesideTheIndex, index_page
 from sim.show.texts.phrases import same
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize(("lang", "dark"), [("en", True), ("zh", False)])
 def test_the_page_offers_anyone_what_pages_must(open_page: OpenPage, lang: str, dark: bool) -> None:
     shown = open_page(shop_page(8), lang=lang, dark=dark).page

@@ -97,6 +97,7 @@ def test_a_tangent_and_a_perpendicular_are_taken_hold_of(browsers: Browsers, ser
         assert (found["distance"], found["across"]) == ("10.000 mm", "10.000 mm")
 
 
+@pytest.mark.deeper
 def test_a_centre_is_taken_hold_of(browsers: Browsers, served: OpenedPage) -> None:
     with tab(browsers, served.address) as shown:
         ruler = Ruler(shown)
@@ -109,6 +110,7 @@ def test_a_centre_is_taken_hold_of(browsers: Browsers, served: OpenedPage) -> No
         assert "along the path" not in found
 
 
+@pytest.mark.deeper
 def test_a_link_leads_to_a_moment_or_a_block_of_the_replay(open_page: OpenPage) -> None:
     page = open_page(replay_page(recording_of(SLOT))).page
     page.wait_for_selector("#loading", state="hidden")
@@ -130,6 +132,7 @@ def test_a_link_leads_to_a_moment_or_a_block_of_the_replay(open_page: OpenPage) 
     page.wait_for_function("() => document.querySelector('#live').innerText.includes('link to this moment')")
 
 
+@pytest.mark.deeper
 def test_the_block_of_the_caret_leads_into_the_replay(browsers: Browsers, tmp_path: Path) -> None:
     (tmp_path / "slot.3b").write_text(SLOT, "utf-8")
     with opened_page(tmp_path / "slot.3b") as served, tab(browsers, served.address) as shown:

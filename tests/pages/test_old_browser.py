@@ -97,6 +97,7 @@ def test_a_fault_drill_is_answered(page: "Page", tmp_path: Path) -> None:
     assert text(page, "#too-old") == ""
 
 
+@pytest.mark.deeper
 def test_a_program_opens(page: "Page", tmp_path: Path) -> None:
     (tmp_path / "part.3b").write_text(LABELLED, "utf-8")
     with opened_page(tmp_path / "part.3b") as served:

@@ -44,6 +44,7 @@ def served_nothing() -> Iterator[OpenedPage]:
         yield served
 
 
+@pytest.mark.deeper
 def test_a_program_shows_at_once(browsers: Browsers, keyhole: OpenedPage) -> None:
     with tab(browsers, keyhole.address) as shown:
         shown.waits_for("pass")
@@ -57,6 +58,7 @@ def test_a_program_shows_at_once(browsers: Browsers, keyhole: OpenedPage) -> Non
         assert drawn > 3
 
 
+@pytest.mark.deeper
 def test_a_file_leads_the_browser_to_the_page(browsers: Browsers, tmp_path: Path) -> None:
     recorder = Recorder(tmp_path)
     with opened_page(KEYHOLE, browser=recorder.program) as served, tab(browsers, served.address) as shown:
@@ -66,6 +68,7 @@ def test_a_file_leads_the_browser_to_the_page(browsers: Browsers, tmp_path: Path
         shown.asked.remove(recorder.heard())
 
 
+@pytest.mark.alike(1)
 @needs_axe
 @pytest.mark.parametrize("lang", ["en", "zh"])
 def test_axe_has_nothing_against_the_page(browsers: Browsers, keyhole: OpenedPage, lang: str) -> None:
@@ -99,6 +102,7 @@ def test_it_checks_while_one_types(browsers: Browsers, empty: OpenedPage) -> Non
         assert shown.page.locator("#lines .error").first.inner_text() == "1"
 
 
+@pytest.mark.deeper
 def test_what_is_typed_before_the_page_has_its_first_answer_stays(browsers: Browsers, empty: OpenedPage) -> None:
     with tab(browsers, empty.address) as shown:
         shown.page.route("**/first", lambda route: (shown.page.wait_for_timeout(500), route.continue_()))
@@ -154,6 +158,7 @@ def test_a_block_in_the_picture_is_its_line(browsers: Browsers, keyhole: OpenedP
         assert shown.page.inner_text("#lines .now") == "3"
 
 
+@pytest.mark.deeper
 def test_two_tabs_are_two_programs(browsers: Browsers, served: OpenedPage) -> None:
     with tab(browsers, served.address) as one, tab(browsers, served.address) as other:
         one.waits_for("fail")
@@ -186,6 +191,7 @@ def test_the_button_ends_it_and_an_ended_server_is_told(browsers: Browsers) -> N
         shown.found[:] = [text for text in shown.found if "ERR_CONNECTION_REFUSED" not in text]
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize(("widths", "lang"), [((390, 1280), "zh"), ((800, 390), "en")])
 def test_nothing_runs_out_of_the_window(
     browsers: Browsers, served: OpenedPage, widths: tuple[int, ...], lang: str
@@ -228,6 +234,7 @@ def test_a_program_is_run_and_its_files_are_seen_and_saved(browsers: Browsers, k
         shown.page.wait_for_function("() => !document.querySelector('#stage').textContent.includes('another one now')")
 
 
+@pytest.mark.deeper
 def test_replay_and_film_are_seen_in_the_page_and_the_replay_may_ask_nobody(
     browsers: Browsers, served: OpenedPage
 ) -> None:
@@ -270,6 +277,7 @@ def natural_width(page: "Page", selector: str) -> int:
     return page.eval_on_selector(selector, "(shown) => shown.naturalWidth")
 
 
+@pytest.mark.deeper
 def test_a_run_is_cancelled_and_another_one_begun(browsers: Browsers, tmp_path: Path) -> None:
     square = "B9000B0B9000GXL1\nB0B9000B9000GYL2\nB9000B0B9000GXL3\nB0B9000B9000GYL4\n"
     (tmp_path / "long.3b").write_text(f"{square * 40}DD\n", "utf-8")
@@ -289,6 +297,7 @@ def test_a_run_is_cancelled_and_another_one_begun(browsers: Browsers, tmp_path: 
         assert shown.page.is_enabled("#start")
 
 
+@pytest.mark.deeper
 def test_a_run_waits_until_the_program_has_come(browsers: Browsers, keyhole: OpenedPage) -> None:
     with tab(browsers, keyhole.address) as shown:
         shown.page.route("**/first", lambda route: (shown.page.wait_for_timeout(500), route.continue_()))
@@ -299,6 +308,7 @@ def test_a_run_waits_until_the_program_has_come(browsers: Browsers, keyhole: Ope
         shown.page.click("#cancel")
 
 
+@pytest.mark.deeper
 def test_a_folder_is_listed_and_its_programs_open_by_a_click(browsers: Browsers, tmp_path: Path) -> None:
     (tmp_path / f"{MARKUP.replace('/', '')}.3b").write_text(WRONG)
     (tmp_path / "b.3b").write_text("B1000B0B1000GXL1\nB1000B0B1000GXL3\nDD\n")
@@ -330,6 +340,7 @@ def test_a_folder_is_listed_and_its_programs_open_by_a_click(browsers: Browsers,
         shown.page.wait_for_function("() => document.title.startsWith('c.3b')")
 
 
+@pytest.mark.deeper
 def test_several_files_that_are_dropped_are_a_list(browsers: Browsers, empty: OpenedPage, tmp_path: Path) -> None:
     (tmp_path / "孔.3b").write_text(WRONG)
     (tmp_path / "b.txt").write_text("hello")
@@ -364,6 +375,7 @@ def shades(page: "Page") -> set[str]:
     )
 
 
+@pytest.mark.deeper
 def test_an_earlier_version_is_seen_beside_the_present_one(browsers: Browsers, tmp_path: Path) -> None:
     square = "B3000B0B3000GXL1\nB0B2000B2000GYL2\nB3000B0B3000GXL3\nB0B2000B2000GYL4\nDD\n"
     wider = square.replace("3000", "4000")
@@ -400,6 +412,7 @@ def test_an_earlier_version_is_seen_beside_the_present_one(browsers: Browsers, t
         shown.found[:] = [text for text in shown.found if "readback" not in text]  # of this test, twice
 
 
+@pytest.mark.deeper
 def test_a_second_program_is_compared_with_the_one_that_was_open(browsers: Browsers, served: OpenedPage) -> None:
     with tab(browsers, served.address, lang="zh") as shown:
         shown.waits_for("fail")
@@ -413,6 +426,7 @@ def test_a_second_program_is_compared_with_the_one_that_was_open(browsers: Brows
         assert shown.page.locator("#beside-open").is_hidden()
 
 
+@pytest.mark.deeper
 def test_a_drawing_is_dropped_made_a_program_and_run_against(
     browsers: Browsers, empty: OpenedPage, tmp_path: Path
 ) -> None:

@@ -121,6 +121,7 @@ def test_it_plays_stops_and_ends_at_the_end(open_page: OpenPage) -> None:
     assert out(page, "remaining") == "00:00.00"
 
 
+@pytest.mark.deeper
 def test_time_goes_by_at_the_speed_that_is_set(open_page: OpenPage) -> None:
     page = opened(open_page)
     for speed in (0.01, 2.0):
@@ -228,6 +229,7 @@ def many_findings() -> str:
         return replay_page(recording)
 
 
+@pytest.mark.deeper
 def test_marks_of_many_findings_lie_apart_and_name_each_kind_once(open_page: OpenPage) -> None:
     page = opened(open_page, many_findings())
     marks = page.locator("#finding-marks button")
@@ -239,6 +241,7 @@ def test_marks_of_many_findings_lie_apart_and_name_each_kind_once(open_page: Ope
     assert re.search(r" ×\d+$", name)
 
 
+@pytest.mark.deeper
 def test_numbers_of_blocks_that_have_no_room_are_not_measured(open_page: OpenPage) -> None:
     page = opened(open_page, many_findings())
     measured = page.evaluate("""() => {
@@ -326,6 +329,7 @@ def test_the_list_of_keys_has_the_keyboard_for_itself(open_page: OpenPage) -> No
     assert not page.locator("#help").is_visible()
 
 
+@pytest.mark.deeper
 def test_a_loop_that_is_shorter_than_a_frame_is_seen_in_all_its_parts(open_page: OpenPage) -> None:
     page = opened(open_page)
     times = page.evaluate("""async () => {
@@ -345,6 +349,7 @@ def test_a_loop_that_is_shorter_than_a_frame_is_seen_in_all_its_parts(open_page:
     assert len({round(t, 3) for t in times}) > 5
 
 
+@pytest.mark.deeper
 def test_the_loop_goes_round(open_page: OpenPage) -> None:
     page = opened(open_page)
     do(page, "drycut.player.seek(20); drycut.player.setSpeed(100)")
@@ -435,6 +440,7 @@ def test_the_kerf_opens_behind_the_wire_and_closes_when_it_goes_back(open_page: 
     assert not near(colour(page, *beside), kerf)
 
 
+@pytest.mark.deeper
 def test_a_kerf_drawn_bit_by_bit_is_the_kerf_drawn_at_once(open_page: OpenPage) -> None:
     page = opened(open_page)
     do(page, "for (let t = 0; t < 100; t += 0.7) drycut.player.seek(t)")
@@ -452,7 +458,7 @@ def test_a_kerf_drawn_bit_by_bit_is_the_kerf_drawn_at_once(open_page: OpenPage) 
     assert different.mean() < 2e-4  # edges that are smoothed twice are a little darker
 
 
-@pytest.mark.alike(2)
+@pytest.mark.deeper
 @pytest.mark.parametrize(("motion", "speed"), [("no-preference", 1000), ("no-preference", 10000), ("reduce", 1000)])
 def test_a_piece_that_is_free_drops_and_leaves_a_hole(open_page: OpenPage, motion: str, speed: int) -> None:
     page = opened(open_page, reduced_motion=motion)
@@ -573,6 +579,7 @@ def begun(page: "Page", who: str = "", number: str = "") -> "Locator":
     return panel
 
 
+@pytest.mark.deeper
 def test_no_answer_is_given_by_space_and_nothing_tells_the_right_one(open_page: OpenPage) -> None:
     page = opened(open_page)
     panel = begun(page)
@@ -679,6 +686,7 @@ def test_after_a_trip_the_replay_ends_there_and_says_so(open_page: OpenPage) -> 
     assert out(page, "remaining") == "00:00.00"
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize(("lang", "dark"), [("en", False), ("zh", True)])
 def test_anyone_can_use_it(open_page: OpenPage, lang: str, dark: bool) -> None:
     page = opened(open_page, lang=lang, dark=dark)
@@ -741,6 +749,7 @@ def test_a_million_steps_load_soon_and_play_smoothly(open_page: OpenPage) -> Non
     assert played < 3 * empty + 1
 
 
+@pytest.mark.deeper
 def test_many_blocks_keep_few_lines_in_the_page(open_page: OpenPage) -> None:
     page = opened(open_page, million_steps())
     page.locator("#program").evaluate("box => box.scrollTop = 0")
@@ -754,6 +763,7 @@ LOOKS = {
 }
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize("name", LOOKS)
 def test_it_looks_as_it_did(open_page: OpenPage, name: str) -> None:
     width, height, lang, dark, script = LOOKS[name]
@@ -765,6 +775,7 @@ def test_it_looks_as_it_did(open_page: OpenPage, name: str) -> None:
     assert_golden_screen(page, f"{name}.png")
 
 
+@pytest.mark.deeper
 def test_paper_has_the_picture_sharp_and_light_with_its_place_and_time(open_page: OpenPage) -> None:
     page = opened(open_page, dark=True)
     do(page, "drycut.player.seekBlock(3)")

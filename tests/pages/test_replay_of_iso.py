@@ -3,6 +3,7 @@
 import functools
 from typing import TYPE_CHECKING
 
+import pytest
 from browser import OpenPage
 from iso_at_home import ROUNDS
 from replayed import recording_of
@@ -40,6 +41,7 @@ def at(page: "Page", row: int) -> str:
     return running(page)
 
 
+@pytest.mark.deeper
 def test_the_line_of_a_subprogram_is_marked_in_every_call(open_page: OpenPage) -> None:
     page = opened(open_page)
     assert "N120 G03" in at(page, 1)
@@ -49,6 +51,7 @@ def test_the_line_of_a_subprogram_is_marked_in_every_call(open_page: OpenPage) -
     assert page.locator("#program .now").inner_text().startswith("N220")
 
 
+@pytest.mark.deeper
 def test_a_click_on_it_leads_to_its_first_call(open_page: OpenPage) -> None:
     page = opened(open_page)
     page.get_by_text("N220 G03 X35000 Y0 I-5000 J0").click()
@@ -57,6 +60,7 @@ def test_a_click_on_it_leads_to_its_first_call(open_page: OpenPage) -> None:
     assert page.locator("#tip").inner_text().startswith("Block N220 (6 of 10) · arc, counter-clockwise")
 
 
+@pytest.mark.deeper
 def test_words_of_3b_are_not_shown_as_those_of_a_block(open_page: OpenPage) -> None:
     page = opened(open_page)
     page.get_by_text("N220 G03 X35000 Y0 I-5000 J0").hover()

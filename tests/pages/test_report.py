@@ -73,6 +73,7 @@ def test_what_others_wrote_shows_as_text(open_page: OpenPage, bad: Made) -> None
     assert "<script>window.hacked=5</script>" in page.locator(".groups").inner_text()
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize(("lang", "dark"), [("en", False), ("zh", True)])
 def test_nobody_has_to_complain_of_the_page(open_page: OpenPage, bad: Made, lang: str, dark: bool) -> None:
     assert complaints(open_page(bad.html, lang=lang, dark=dark).page) == []
@@ -127,6 +128,7 @@ def test_a_head_sorts_up_then_down_and_says_so(open_page: OpenPage, part: Made) 
     assert page.locator(f"{BLOCKS} [aria-sort=descending]").count() == 0
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize("clicks", [1, 2])
 def test_rows_without_a_value_stand_last_either_way(open_page: OpenPage, part: Made, clicks: int) -> None:
     page = open_page(part.html).page
@@ -135,6 +137,7 @@ def test_rows_without_a_value_stand_last_either_way(open_page: OpenPage, part: M
     assert cells(page, "radius") == ["0.500"] + ["–"] * 10
 
 
+@pytest.mark.deeper
 def test_the_worst_of_many_blocks_is_two_clicks_away(open_page: OpenPage, many: Made) -> None:
     page = shown(open_page, many.html)
     assert page.locator(f"{BLOCKS} tbody tr").count() == 200
@@ -151,6 +154,7 @@ def test_the_worst_of_many_blocks_is_two_clicks_away(open_page: OpenPage, many: 
     assert took_ms < 1500.0, "sorting 5,000 blocks twice"
 
 
+@pytest.mark.deeper
 def test_pages_of_a_long_table_are_turned(open_page: OpenPage, many: Made) -> None:
     page = shown(open_page, many.html)
     turn = {
@@ -168,6 +172,7 @@ def test_pages_of_a_long_table_are_turned(open_page: OpenPage, many: Made) -> No
     assert cells(page, "block")[0] == "1"
 
 
+@pytest.mark.deeper
 def test_a_long_table_is_searched_by_block_and_by_text(open_page: OpenPage, many: Made) -> None:
     page = shown(open_page, many.html)
     field, told = page.locator(f"{BLOCKS} input[type=search]"), page.locator(f"{BLOCKS} .told")
@@ -195,6 +200,7 @@ def test_a_long_table_is_searched_by_block_and_by_text(open_page: OpenPage, many
     assert page.locator(f"{BLOCKS} .count").inner_text() == "rows 1–200 of 5,000"
 
 
+@pytest.mark.deeper
 def test_all_rows_of_a_long_table_are_saved_as_csv(open_page: OpenPage, many: Made) -> None:
     page = shown(open_page, many.html)
     page.locator(f"{BLOCKS} input[type=search]").fill("17")  # what is searched does not matter
@@ -225,6 +231,7 @@ def test_no_text_of_a_program_becomes_a_formula_or_a_row_of_a_spreadsheet(open_p
     assert read == ["text, said", "'=1+1", "'+1", "'-1", "'@x", "'\t=1", 'a "b", c', "two\nlines", "", "B5GXL1"]
 
 
+@pytest.mark.deeper
 def test_a_browser_that_cannot_unpack_a_table_says_so(open_page: OpenPage, many: Made) -> None:
     watched = open_page(
         many.html.replace("<head>", "<head><script>delete window.DecompressionStream;</script>", 1), lang="zh"
@@ -328,7 +335,7 @@ def grid(holes: int) -> str:
     )
 
 
-@pytest.mark.alike(2)
+@pytest.mark.alike(1)
 @pytest.mark.parametrize("holes", [1, 12, 40])
 def test_the_job_sheet_is_one_sheet_with_all_that_stands_on_it(open_page: OpenPage, holes: int) -> None:
     page = open_page(made(grid(holes), kerf=True).html, int((210 - 24) * MM_PX), 1000).page
@@ -343,6 +350,7 @@ def test_the_job_sheet_is_one_sheet_with_all_that_stands_on_it(open_page: OpenPa
     assert page.locator('[data-table="threads"] tbody tr').count() == (holes if holes > 12 else 0)
 
 
+@pytest.mark.deeper
 @pytest.mark.parametrize("lang", ["en", "zh"])
 def test_a_long_title_and_many_findings_leave_the_sheet_whole(open_page: OpenPage, lang: str) -> None:
     wrong = grid(14).replace("B300B0B300GXL3", "B300B0B290GXL3")
@@ -357,12 +365,14 @@ def test_a_long_title_and_many_findings_leave_the_sheet_whole(open_page: OpenPag
     assert sheet.locator(".verdict").evaluate("box => box.clientHeight") < 30 * MM_PX, "a letter a line"
 
 
+@pytest.mark.deeper
 def test_a_program_of_24_blocks_takes_two_sheets(open_page: OpenPage) -> None:
     part = made(grid(5), kerf=True)
     assert part.report["summary"]["blocks"] == 24
     assert sheets(open_page(part.html).page.pdf(prefer_css_page_size=True)) == [(210, 297), (297, 210)]
 
 
+@pytest.mark.deeper
 def test_all_rows_go_on_paper_beneath_heads_that_can_be_repeated(open_page: OpenPage) -> None:
     page = open_page(made(staircase(700), may_stay_open=True).html).page
     rows = page.locator(f"{BLOCKS} tbody tr")
@@ -381,6 +391,7 @@ def test_all_rows_go_on_paper_beneath_heads_that_can_be_repeated(open_page: Open
     assert set(heads.evaluate_all("all => all.map(one => getComputedStyle(one).display)")) == {"contents"}
 
 
+@pytest.mark.deeper
 def test_a_tick_puts_all_of_the_page_on_paper(open_page: OpenPage, bad: Made) -> None:
     page = open_page(bad.html).page
     page.emulate_media(media="print")
@@ -420,6 +431,7 @@ def test_the_page_looks_as_it_should_in_chinese_and_dark(open_page: OpenPage, ba
     assert_golden_screen(open_page(bad.html, 390, 844, lang="zh", dark=True, shipped_font=True).page, "report-zh.png")
 
 
+@pytest.mark.deeper
 @pytest.mark.parametrize(("lang", "says"), [("en", "too old for the tables"), ("zh", "浏览器版本太旧")])
 def test_a_browser_too_old_for_the_tables_is_told_so(open_page: OpenPage, part: Made, lang: str, says: str) -> None:
     assert not open_page(part.html, lang=lang).page.locator("#too-old").is_visible()

@@ -43,6 +43,7 @@ def test_what_is_wrong_with_a_page_fails_its_test(browsers: Browsers, tmp_path: 
         pages.close()
 
 
+@pytest.mark.deeper
 def test_a_page_that_hangs_fails_its_test_and_holds_up_no_other(
     browsers: Browsers, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -174,6 +175,7 @@ body {{ color: #333; background: #fff }}
 <div style="height: 3000px"></div>"""
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize("dark", [False, True])
 def test_a_sound_page_gives_no_complaint(open_page: OpenPage, dark: bool) -> None:
     page = open_page(SOUND, 900, 700, dark=dark).page

@@ -53,6 +53,7 @@ def reads(shown: Tab, name: str, text: str) -> None:
     )
 
 
+@pytest.mark.deeper
 @pytest.mark.parametrize(("width", "height"), SIZES)
 def test_the_picture_is_the_room_and_the_verdict_is_read_from_afar(
     browsers: Browsers, square: OpenedPage, width: int, height: int
@@ -116,6 +117,7 @@ def edge_of(page: "Page") -> tuple[float, float]:
     return box["x"] + box["width"] / 2.0 + scale * 0.7, box["y"] + 40.0 + room / 2.0 - scale
 
 
+@pytest.mark.deeper
 def test_a_run_takes_the_place_of_the_path_and_its_verdict_is_the_one(browsers: Browsers, tmp_path: Path) -> None:
     dxf = drawn(tmp_path, lambda space: space.add_circle((0.0, 0.0), 3.0))
     with opened_page() as served, tab(browsers, served.address) as shown:
@@ -155,6 +157,7 @@ def test_all_certain_mends_are_made_at_one_click_and_can_be_undone(browsers: Bro
         shown.page.wait_for_function("() => document.querySelector('#text').value.includes('39600GX')")
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize(
     ("lang", "said"), [("en", "J counts the steps on one axis only"), ("zh", "J 只数一个轴的步数")]
 )
@@ -220,6 +223,7 @@ def test_wire_and_gap_give_the_offset_and_the_machine_counts_for_the_check(
         )
 
 
+@pytest.mark.deeper
 def test_the_picture_refits_when_the_path_leaves_it_unless_it_was_moved(browsers: Browsers, square: OpenedPage) -> None:
     bar = "() => document.querySelector('#hover').textContent"
     large = SQUARE.replace("3000", "9000")
@@ -238,6 +242,7 @@ def test_the_picture_refits_when_the_path_leaves_it_unless_it_was_moved(browsers
         shown.page.wait_for_function("was => document.querySelector('#picture').toDataURL() !== was", arg=first)
 
 
+@pytest.mark.alike(1)
 @needs_axe
 @pytest.mark.parametrize(("width", "lang"), [(1280, "en"), (390, "zh")])
 def test_axe_has_nothing_against_any_tab(browsers: Browsers, square: OpenedPage, width: int, lang: str) -> None:
@@ -248,6 +253,7 @@ def test_axe_has_nothing_against_any_tab(browsers: Browsers, square: OpenedPage,
             assert violations(shown.page) == [], name
 
 
+@pytest.mark.deeper
 def test_the_keyboard_alone_plays_and_changes_tabs(browsers: Browsers, square: OpenedPage) -> None:
     with tab(browsers, square.address) as shown:
         shown.waits_for("pass")

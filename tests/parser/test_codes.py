@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 from places import ROOT
+from trees import trees_of
 
 from parser.findings.codes import CODES, CODES_OF_ISO
 
@@ -24,9 +25,8 @@ DECIDERS = (ast.Compare, ast.Match, ast.If, ast.IfExp, ast.comprehension)
 @cache
 def modules() -> dict[Path, ast.Module]:
     """Modules of the packages that name a code, or ask a finding for its own."""
-    paths = [path for package in ("parser", "controller", "sim") for path in sorted((ROOT / package).rglob("*.py"))]
-    texts = {path: path.read_text(encoding="utf-8") for path in paths}
-    return {path: ast.parse(text) for path, text in texts.items() if SPEAKS_OF_CODES.search(text)}
+    found = ((ROOT / path, tree) for path, tree in trees_of("parser", "controller", "sim"))
+    return {path: tree for path, tree in found if SPEAKS_OF_CODES.search(path.read_text(encoding="utf-8"))}
 
 
 def is_code(node: ast.AST) -> bool:

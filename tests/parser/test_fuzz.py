@@ -46,6 +46,7 @@ INPUTS = {
 """How many of each kind are tried; `make fuzz` tries a million."""
 
 
+@pytest.mark.alike(6)
 @pytest.mark.parametrize("name", TARGETS)
 def test_any_input_gets_an_answer(name: str, tmp_path: Path) -> None:
     task = Task(TARGETS[name], SEED, 0, len(cases(max(INPUTS[name] // 2, 2), INPUTS[name])))
@@ -62,7 +63,7 @@ def test_an_input_that_once_broke_a_promise_gets_an_answer(path: Path, tmp_path:
     assert broken == []
 
 
-@pytest.mark.alike(9)
+@pytest.mark.alike(5)
 @pytest.mark.deep
 @pytest.mark.parametrize("name", HOSTILE)
 def test_hostile_programs_end_in_bounded_time(name: str) -> None:

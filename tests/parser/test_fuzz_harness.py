@@ -64,6 +64,7 @@ def test_what_is_fuzzed_by_what_it_reaches_is_a_text_or_a_file(name: str) -> Non
     assert isinstance(TARGETS[name].input(SEED, 0), bytes)
 
 
+@pytest.mark.deeper
 def test_an_input_that_broke_a_promise_is_tried_again_from_its_file(tmp_path: Path) -> None:
     """Without atheris, which is installed by `make guided` alone."""
     (tmp_path / "iso-1").write_bytes(b"%\nO0027\nG91 S1 D1\nG92")

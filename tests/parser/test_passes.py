@@ -25,6 +25,7 @@ def true_shifts(program: RoughAndTrim) -> list[float]:
     return [one.offset_um - last[one.edge, one.is_tab] for one in program.passes]
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize("part", range(3))
 def test_passes_of_random_programs_are_those_that_were_written(part: int) -> None:
     rng = random.Random(f"passes {part}")

@@ -95,6 +95,7 @@ def test_a_quiz_asks_about_places_and_senses_of_iso() -> None:
     assert end["answers"][end["right"]]["en"] == "X 5.000 mm, Y 0.000 mm"
 
 
+@pytest.mark.deeper
 def test_a_shop_of_both_families_is_run_with_its_settings(tmp_path: Path) -> None:
     shop = tmp_path / "shop"
     shop.mkdir()

@@ -15,6 +15,7 @@ from replayed import document_of
 from report_schema import validator
 from runs import codes, plain_scenario, run_text
 from tiny_dialect import TinyReader
+from trees import trees_of
 
 from controller.offset.shifted import Side
 from controller.stepping.steps import interpolate
@@ -287,9 +288,7 @@ _COMMENT = re.compile(r"/\*.*?\*/|\{#.*?#\}|<!--.*?-->|(?<![:\"'])//[^\n]*", re.
 
 
 def modules() -> Iterator[tuple[str, ast.Module]]:
-    for package in ("sim", "controller"):
-        for path in sorted((ROOT / package).rglob("*.py")):
-            yield path.relative_to(ROOT).as_posix(), ast.parse(path.read_text("utf-8"))
+    return ((path.as_posix(), tree) for path, tree in trees_of("sim", "controller"))
 
 
 def imported(tree: ast.Module) -> Iterator[str]:

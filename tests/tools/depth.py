@@ -11,8 +11,8 @@ def cases(suite: int, deep: int) -> range:
 
 
 def examples(deep: int = 100) -> int:
-    """How many examples a property is tried on that `hypothesis` makes: a third of them in the suite."""
-    return deep if DEEP else max(deep // 3, 5)
+    """How many examples a property is tried on that `hypothesis` makes: a fifth of them in the suite."""
+    return deep if DEEP else max(deep // 5, 5)
 
 
 def spread(most: int, number: int) -> set[int]:

@@ -27,6 +27,7 @@ def repeated(ran: Ran) -> None:
     assert list(Replay("client.log", ran.log)) == []
 
 
+@pytest.mark.deeper
 def test_scan_from_the_limits_and_back(library: Made, tmp_path: Path) -> None:
     ran = library.run(library.client("scan"), tmp_path, card=LIMITS)
     *lines, milliseconds = ran.out.splitlines()
@@ -42,6 +43,7 @@ def test_scan_without_switches_finds_no_zero(library: Made, tmp_path: Path) -> N
     assert (ran.code, ran.out) == (1, "no zero: -1000000 0 0 2001\n")
 
 
+@pytest.mark.deeper
 def test_home_and_index_of_three_axes(library: Made, tmp_path: Path) -> None:
     ran = library.run(library.client("home"), tmp_path, card=HOMES * 3)
     assert ran.out.splitlines()[0] == "levels 3f"
@@ -98,6 +100,7 @@ def test_three_threads_end_alike_each_time(library: Made, tmp_path: Path) -> Non
     repeated(ran)
 
 
+@pytest.mark.deeper
 def test_three_threads_take_the_same_turns_in_every_process(library: Made, tmp_path: Path) -> None:
     runs = [library.run(library.client("stream"), tmp_path, "threads", "pause") for _ in range(6)]
     assert {end_of(ran) for ran in runs} == {AT_END}

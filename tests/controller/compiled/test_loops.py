@@ -59,6 +59,7 @@ def printed(folder: Path, cache: Path) -> list[str]:
     return done.stdout.split()
 
 
+@pytest.mark.deeper
 def test_a_loop_is_compiled_once_and_told_of_once(loops: Path) -> None:
     cache = loops / "cache"
     assert printed(loops, cache) == ["compiling", "10.0"]
@@ -73,6 +74,7 @@ def test_a_loop_is_compiled_again_when_a_loop_that_it_calls_has_changed(loops: P
     assert printed(loops, cache) == ["compiling", "12.0"]
 
 
+@pytest.mark.deeper
 def test_every_module_with_loops_is_compiled_at_set_up() -> None:
     with_loops = set()
     for package in ("controller", "sim"):
@@ -82,6 +84,7 @@ def test_every_module_with_loops_is_compiled_at_set_up() -> None:
     assert sorted(LOOPS) == sorted(with_loops)
 
 
+@pytest.mark.deeper
 def test_numba_is_loaded_to_compile_a_loop_and_not_to_call_it(loops: Path) -> None:
     cache = loops / "cache"
     (loops / "outer.py").write_text(f"{OUTER}\nimport sys\nprint('numba' in sys.modules)\n")
@@ -89,6 +92,7 @@ def test_numba_is_loaded_to_compile_a_loop_and_not_to_call_it(loops: Path) -> No
     assert printed(loops, cache) == ["10.0", "False"]
 
 
+@pytest.mark.deeper
 def test_a_run_needs_no_numba_once_its_loops_are_compiled(tmp_path: Path) -> None:
     code = (
         "import atexit, sys\n"
@@ -127,6 +131,7 @@ def test_damaged_machine_code_counts_as_none(
     assert stored("a.loop", "0") is None
 
 
+@pytest.mark.deeper
 def test_damaged_machine_code_is_compiled_again(loops: Path) -> None:
     cache = loops / "cache"
     printed(loops, cache)

@@ -6,10 +6,11 @@ import os
 import pickle
 import re
 from collections.abc import Iterator
+from functools import cache
 from string import Formatter
 
 import pytest
-from places import ROOT
+from trees import trees
 
 from parser.findings.catalogue import Bilingual, message_templates, term
 from parser.findings.errors import DrawingError, FileUnreadableError, Message, SettingsError, in_both, system_message
@@ -28,13 +29,21 @@ def places(template: str) -> dict[str, tuple[str, str]]:
     return {name: (form or "", how or "") for _, name, form, how in Formatter().parse(template) if name}
 
 
-def calls() -> Iterator[tuple[str, ast.Call]]:
+def nodes(*folder: str) -> Iterator[tuple[str, ast.AST]]:
+    """All nodes of the code in a folder, each with the path of its module."""
+    for path, tree in trees().items():
+        if path.parts[: len(folder)] == folder:
+            yield from ((str(path), node) for node in ast.walk(tree))
+
+
+@cache
+def calls() -> tuple[tuple[str, ast.Call], ...]:
     """Each call of the code whose first argument is the code of a message that is written out."""
-    for package in ("parser", "controller", "sim"):
-        for path in sorted((ROOT / package).rglob("*.py")):
-            for node in ast.walk(ast.parse(path.read_text("utf-8"))):
-                if isinstance(node, ast.Call) and node.args and _says(node.func):
-                    yield f"{path.relative_to(ROOT)}:{node.lineno}", node
+    return tuple(
+        (f"{path}:{node.lineno}", node)
+        for path, node in nodes()
+        if isinstance(node, ast.Call) and node.args and _says(node.func)
+    )
 
 
 def _says(function: ast.expr) -> bool:
@@ -69,21 +78,14 @@ def test_each_call_gives_the_values_that_the_text_has_places_for() -> None:
 def test_no_sentence_is_raised() -> None:
     for place, node in calls():
         assert not isinstance(node.args[0], ast.JoinedStr), place
-    for path in sorted((ROOT / "sim" / "cli").rglob("*.py")):
-        for node in ast.walk(ast.parse(path.read_text("utf-8"))):
-            name = getattr(getattr(node, "func", None), "attr", "")
-            if name in {"UsageError", "BadParameter", "fail"} and isinstance(node, ast.Call):
-                assert not isinstance(node.args[0], ast.JoinedStr | ast.Constant), (path, node.lineno)
+    for path, node in nodes("sim", "cli"):
+        name = getattr(getattr(node, "func", None), "attr", "")
+        if name in {"UsageError", "BadParameter", "fail"} and isinstance(node, ast.Call):
+            assert not isinstance(node.args[0], ast.JoinedStr | ast.Constant), (path, node.lineno)
 
 
 def test_no_text_is_there_that_nothing_says() -> None:
-    said = {
-        node.value
-        for package in ("parser", "controller", "sim")
-        for path in (ROOT / package).rglob("*.py")
-        for node in ast.walk(ast.parse(path.read_text("utf-8")))
-        if isinstance(node, ast.Constant) and isinstance(node.value, str)
-    }
+    said = {node.value for _, node in nodes() if isinstance(node, ast.Constant) and isinstance(node.value, str)}
     assert set(CODES) - said == set()
 
 

@@ -40,6 +40,7 @@ def test_a_program_read_by_its_profile_runs_what_was_drawn(family: str, number: 
     held(made, read(made, Choices(dialect=family, unit=made.unit)))
 
 
+@pytest.mark.alike(16)
 @pytest.mark.parametrize(("family", "number"), PROGRAMS)
 def test_a_sound_program_is_silent(family: str, number: int) -> None:
     made = program(random.Random(number), family)

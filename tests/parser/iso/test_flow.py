@@ -105,6 +105,7 @@ def test_calls_of_calls_are_followed_up_to_a_bound(monkeypatch: pytest.MonkeyPat
     assert len(program.toolpath) <= flow.LONGEST
 
 
+@pytest.mark.deeper
 def test_calls_that_run_millions_of_blocks_take_little_memory() -> None:
     text = "G91 G01\nM98 P1 L999\nM02\nN1 M98 P2 L999\nM99\nN2 X1\nX-1\nG02 X2 Y0 I1 J0\nM99"
     tracemalloc.start()

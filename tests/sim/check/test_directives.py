@@ -147,6 +147,7 @@ def test_what_is_no_program_stays_so() -> None:
     assert result.unreadable
 
 
+@pytest.mark.deeper
 def test_ten_thousand_remarks_take_no_long_time() -> None:
     wrong = LABEL.splitlines()[0]
     in_lines = f"{wrong} // drycut: ignore 3B203\n" * 10_000

@@ -172,7 +172,7 @@ def hold(seed: int) -> None:
         assert folded(by_editor(typed, made, encoding)).lstrip("\ufeff") == folded(right)
 
 
-@pytest.mark.alike(2)
+@pytest.mark.alike(1)
 @pytest.mark.deep
 @pytest.mark.parametrize("part", range(4))
 def test_a_certain_mend_gives_the_sound_program_at_every_door(part: int) -> None:

@@ -182,6 +182,7 @@ def test_an_approach_there_and_back_before_the_contour_is_no_figure() -> None:
     assert "3B310" not in found("H000=10", "H001=169", "G92 X0 Y0", "G90", *approach, *square, "G40 X0 Y0")
 
 
+@pytest.mark.alike(4)
 @pytest.mark.parametrize("family", FAMILIES)
 def test_sound_programs_of_every_family_turn_no_arc_and_stray_nowhere(family: str) -> None:
     for seed in range(8):

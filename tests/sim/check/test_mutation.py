@@ -49,7 +49,7 @@ def programs(rng: random.Random, number: int) -> list[Sound]:
     return [program for half in halves for program in half]
 
 
-@pytest.mark.alike(10)
+@pytest.mark.alike(5)
 @pytest.mark.deep
 @pytest.mark.parametrize("kind", AT_THE_BLOCK)
 def test_faults_of_every_kind_are_named_at_their_block(kind: str) -> None:
@@ -77,6 +77,7 @@ def test_a_program_without_its_end_code_says_so() -> None:
         assert [finding.code for finding in result.findings] == ["3B102"]
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize("printed", [False, True])
 def test_sound_programs_are_silent(printed: bool) -> None:
     for program in sound(_PROGRAMS)[printed::2]:

@@ -69,6 +69,7 @@ def test_its_findings_have_places_and_texts_in_both_languages(shop: Path) -> Non
     assert (code, "9 complete" in out) == (0, True)
 
 
+@pytest.mark.deeper
 def test_its_codes_are_chosen_silenced_known_and_explained(shop: Path) -> None:
     assert "SHOP101" in drycut(shop, "check", "long.3b", "--select", "SHOP")[1]
     assert drycut(shop, "check", "long.3b", "--ignore", "SHOP101", "--fail-on", "warning")[0] == 0
@@ -81,6 +82,7 @@ def test_its_codes_are_chosen_silenced_known_and_explained(shop: Path) -> None:
     assert "程序段太长" in drycut(shop, "explain", "--search", "SHOP101", "--lang", "zh")[1]
 
 
+@pytest.mark.alike(2)
 @pytest.mark.parametrize("form", ["json", "sarif", "junit", "github", "gitlab"])
 def test_every_format_has_its_findings(shop: Path, form: str) -> None:
     out = drycut(shop, "check", "long.3b", "--format", form, "--fail-on", "warning")[1]
@@ -91,7 +93,7 @@ def test_every_format_has_its_findings(shop: Path, form: str) -> None:
         jsonschema.Draft202012Validator(schema).validate(json.loads(out))
 
 
-@pytest.mark.alike(4)
+@pytest.mark.alike(2)
 @pytest.mark.parametrize(
     ("name", "said"),
     [

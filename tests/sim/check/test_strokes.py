@@ -52,6 +52,7 @@ def test_a_lead_that_is_put_in_twice_is_found() -> None:
     assert "3B319" in codes(" ".join([first, first, *rest, "DD"]))
 
 
+@pytest.mark.deeper
 def test_of_all_single_block_damages_few_pass_in_silence_and_sound_programs_are_silent() -> None:
     """Before there was a judge of strokes, 15 % of doublings, 9 % of losses and 89 % of swaps of these were silent."""
     tried: Counter[str] = Counter()

@@ -68,6 +68,7 @@ def test_the_line_of_a_file_says_so_in_both_languages_and_its_exit_code_stays(tm
     assert (found["totals"]["files"]["pass"], found["totals"]["files"]["to_check"]) == (2, 1)
 
 
+@pytest.mark.deeper
 def test_a_run_and_a_batch_say_so_too(tmp_path: Path) -> None:
     assert TWICE is not None
     (tmp_path / "shop").mkdir()

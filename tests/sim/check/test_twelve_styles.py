@@ -55,7 +55,7 @@ def is_compared(program: Written) -> bool:
     return program.name != "stepped_edge" and len({edge.reach_um for edge in program.edges}) == 1
 
 
-@pytest.mark.alike(6)
+@pytest.mark.alike(3)
 @pytest.mark.parametrize("style", TWELVE)
 def test_of_sound_programs_all_say_that_they_are(style: str) -> None:
     """But for few that a check accuses, of 400 one: where a hole or a tab lies within a kerf of something else."""

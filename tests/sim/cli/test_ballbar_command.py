@@ -84,6 +84,7 @@ def test_every_outcome_fits_the_schema(make: object) -> None:
     assert complaints(document(make(), 5.0)) == []
 
 
+@pytest.mark.deeper
 def test_the_schema_refuses_a_key_more_or_less() -> None:
     result = document(with_known_errors(), None)
     for node in (result, result["figures"], result["figures"]["cw"], result["parts"], result["parts"]["reversals"][7]):
@@ -146,6 +147,7 @@ def test_a_turn_that_does_not_go_round_has_no_figures(capsys: pytest.CaptureFixt
     assert document(tripped(), None)["circularity_um"] is None
 
 
+@pytest.mark.deeper
 def test_output_is_a_picture_or_a_folder(tmp_path: Path) -> None:
     assert run_inside(*SMALL, "-o", tmp_path / "a" / "plot.PNG").returncode == 0
     assert [path.name for path in (tmp_path / "a").iterdir()] == ["plot.PNG"]
@@ -192,6 +194,7 @@ def test_golden() -> None:
     assert_golden(picture(with_known_errors()), "ballbar.png")
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize("changed", [{"x_um": 6.5}, {"y_um": 0.0}, {"out_um": 0.0}])
 def test_comparison_can_fail(changed: dict[str, float], tmp_path: Path) -> None:
     assert compare(picture(with_known_errors(**changed)), "ballbar.png", tmp_path) != ""

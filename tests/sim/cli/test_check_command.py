@@ -61,6 +61,7 @@ def test_folders_globs_and_files_are_each_checked_once(tmp_path: Path) -> None:
     assert json.loads(out)["verdict"] == "pass"
 
 
+@pytest.mark.alike(5)
 @pytest.mark.parametrize(
     ("arguments", "complaint"),
     [
@@ -197,6 +198,7 @@ def test_an_incomplete_check_is_never_clean(part: Path) -> None:
     assert "closure of contours" in out.partition("4 not asked\n")[2]
 
 
+@pytest.mark.deeper
 def test_many_files_go_over_all_cores_in_their_order(tmp_path: Path) -> None:
     for number in range(240):
         (tmp_path / f"{number:03}.3b").write_text(SOUND if number % 7 else WRONG_AXIS, "ascii")
@@ -242,6 +244,7 @@ def test_blocks_behind_the_end_code_are_counted_whole_or_damaged(part: Path) -> 
     assert "4 of 5 blocks read, 3 decoded" in " ".join(out.split())
 
 
+@pytest.mark.deeper
 def test_open_lets_a_stepped_edge_stay_open_as_in_scenarios(part: Path) -> None:
     part.write_text("B0B2000B2000GYL2 B3000B0B3000GXL1 B0B1000B1000GYL2 B3000B0B3000GXL1 B0B4000B4000GYL4 DD", "utf-8")
     for command in (["check"], ["run", "-o", str(part.parent / "out")]):

@@ -37,6 +37,7 @@ def applied(tool: str, patch: Path, cwd: Path) -> None:
     assert done.returncode == 0, done.stderr
 
 
+@pytest.mark.deeper
 @needs_tools
 def test_tools_make_of_the_diff_what_fix_writes(tmp_path: Path) -> None:
     folder = tmp_path / "shown"

@@ -97,6 +97,7 @@ def test_svg_is_well_formed_as_wide_as_asked_and_says_what_it_is(part: Path, tmp
         assert part.name in root.get("aria-label", "")
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize("name", ["cut.png", "cut.svg"])
 def test_the_same_picture_is_the_same_bytes(part: Path, tmp_path: Path, name: str) -> None:
     for folder in ("a", "b"):

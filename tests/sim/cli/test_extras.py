@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from checking import SOUND, WRONG_AXIS
 from places import ROOT
+from trees import trees
 
 from sim.cli.faults import EXTRA_OF
 
@@ -50,7 +51,7 @@ def shop(tmp_path: Path) -> Path:
     return tmp_path
 
 
-@pytest.mark.alike(5)
+@pytest.mark.alike(2)
 @pytest.mark.parametrize(
     ("code", "arguments"),
     [
@@ -97,6 +98,7 @@ def test_what_is_missing_is_said_with_the_command_that_brings_it(
     assert not list(shop.glob("x*"))
 
 
+@pytest.mark.deeper
 @pytest.mark.parametrize("arguments", [("run", "part.3b", "-o", "out"), ("draw", "part.3b", "-o", "x.png")])
 def test_a_run_needs_its_own_extra_alone(shop: Path, arguments: tuple[str, ...]) -> None:
     code, _, err = drycut(shop, *arguments, extra="run")
@@ -106,8 +108,7 @@ def test_a_run_needs_its_own_extra_alone(shop: Path, arguments: tuple[str, ...])
 def test_every_package_that_is_imported_is_of_the_core_or_of_the_extra_that_is_named() -> None:
     core = {"click", "numpy", "rich"}
     ours = {"parser", "controller", "sim", "drycut"}
-    trees = [ast.parse(path.read_text("utf-8")) for name in ours for path in (ROOT / name).rglob("*.py")]
-    nodes = [node for tree in trees for node in ast.walk(tree)]
+    nodes = [node for tree in trees().values() for node in ast.walk(tree)]
     names = {alias.name for node in nodes if isinstance(node, ast.Import) for alias in node.names}
     names |= {node.module for node in nodes if isinstance(node, ast.ImportFrom) and node.module}
     packages = {name.partition(".")[0] for name in names} - set(sys.stdlib_module_names) - ours - {"_typeshed"}

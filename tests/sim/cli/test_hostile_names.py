@@ -48,7 +48,7 @@ def told(done: CompletedProcess[bytes], own: str = "") -> str:
     return out + err
 
 
-@pytest.mark.alike(3)
+@pytest.mark.alike(1)
 @pytest.mark.parametrize("text", HOSTILE, ids=IDS)
 def test_findings_of_hostile_files_in_every_format(tmp_path: Path, text: str) -> None:
     name = f"{text.replace('/', ':')}.3b"

@@ -37,6 +37,7 @@ def alone(form: str, cwd: Path, *more: object) -> bytes:
     return run_inside("check", "programs", "--format", form, *more, cwd=cwd).stdout
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize("lang", ["en", "zh"])
 def test_outputs_of_one_run_are_those_of_runs_of_their_own(programs: Path, lang: str) -> None:
     into = {form: f"out/{form}.txt" for form in FORMATS}
@@ -49,6 +50,7 @@ def test_outputs_of_one_run_are_those_of_runs_of_their_own(programs: Path, lang:
     assert len(list((programs / "out").iterdir())) == len(FORMATS)
 
 
+@pytest.mark.deeper
 def test_outputs_over_all_cores_are_those_of_runs_of_their_own(tmp_path: Path) -> None:
     (tmp_path / "programs").mkdir()
     for number in range(210):

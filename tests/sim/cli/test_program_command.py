@@ -89,6 +89,7 @@ def test_a_program_that_is_there_stays_where_none_is_proved(tmp_path: Path) -> N
     assert out.read_bytes() == b"kept"
 
 
+@pytest.mark.deeper
 def test_the_suffix_or_as_tells_the_language(part: Path) -> None:
     out = part.with_suffix(".iso")
     assert run(part, "-o", out, "--dialect", "robofil", "--crlf")[0] == 0
@@ -214,6 +215,7 @@ def test_it_is_compared_and_drawn_from_the_drawing_alone(shop: Path) -> None:
     assert not (shop / "plate.3b").exists()
 
 
+@pytest.mark.deeper
 def test_a_shop_makes_the_programs_of_its_scenarios(shop: Path, tmp_path: Path) -> None:
     out = tmp_path / "shop-out"
     done = run_inside("run", f"{shop.parent}/{shop.name}*", "-o", out, "--jobs", "1")

@@ -24,6 +24,7 @@ def with_drawing() -> tuple[Program, Scenario]:
     return read_program(scenario.program), scenario
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize(
     ("case", "trace"),
     [

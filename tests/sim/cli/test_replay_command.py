@@ -184,6 +184,7 @@ def test_animated_pictures_may_be_as_large_as_memory_allows(tmp_path: Path) -> N
     assert writers.FORMAT_NAMES.split(", ") == [*writers.FORMATS]
 
 
+@pytest.mark.deeper
 def test_a_page_plays_the_run_as_that_of_a_run_does(part: Path, tmp_path: Path) -> None:
     file = tmp_path / "new" / "part.HTML"
     done = run_inside("replay", part, "-o", file, "--kerf")

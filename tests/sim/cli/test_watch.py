@@ -70,6 +70,7 @@ def watcher(tmp_path: Path) -> Iterator[Watcher]:
         watcher.process.wait()
 
 
+@pytest.mark.deeper
 @pytest.mark.skipif(os.name == "nt", reason="a process there is not sent Ctrl-C alone")
 def test_each_settled_change_is_checked_once_until_ctrl_c(tmp_path: Path, watcher: Watcher) -> None:
     first = watcher.round()

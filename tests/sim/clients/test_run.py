@@ -29,6 +29,7 @@ def card_run(
     return done, json.loads(report.read_text("utf-8")) if report.exists() else {}
 
 
+@pytest.mark.deeper
 def test_a_client_that_looks_at_nothing_is_told_what_it_did_not_see(library: Made, tmp_path: Path) -> None:
     done, report = card_run(library, tmp_path, library.client("measure"), card=HOMES, hears_client=True)
     assert (done.returncode, complaints(report)) == (0, [])
@@ -67,6 +68,7 @@ def test_a_sound_client_is_silent_and_its_path_is_what_it_drove(library: Made, t
     ]
 
 
+@pytest.mark.deeper
 def test_a_machine_that_is_named_has_its_own_table(library: Made, tmp_path: Path) -> None:
     limits = "[[switches]]\nnegative = -40000\n[[switches]]\nnegative = -60000\n"
     done, report = card_run(library, tmp_path, library.client("scan"), "--machine", "dk7740", card=limits)
@@ -75,6 +77,7 @@ def test_a_machine_that_is_named_has_its_own_table(library: Made, tmp_path: Path
     assert complaints(report) == []
 
 
+@pytest.mark.deeper
 def test_a_killed_client_is_run_as_far_as_it_came(library: Made, tmp_path: Path) -> None:
     done, report = card_run(library, tmp_path, library.client("killed"))
     assert (done.returncode, complaints(report)) == (1, [])
@@ -110,6 +113,7 @@ def test_without_motion_there_is_no_page_and_the_calls_are_told(library: Made, t
     assert re.search(rb"neither X nor Y moved", done.stdout)
 
 
+@pytest.mark.deeper
 def test_json_is_the_report_and_what_the_client_prints_goes_aside(library: Made, tmp_path: Path) -> None:
     done, report = card_run(library, tmp_path, library.client("measure"), "--json", card=HOMES, hears_client=True)
     assert json.loads(done.stdout) == report

@@ -31,7 +31,7 @@ def way(rng: np.random.Generator, length_um: float, across_um: float) -> Floats:
     return np.stack([along, across], axis=1) @ turn + rng.uniform(-1e5, 1e5, 2)
 
 
-@pytest.mark.alike(3)
+@pytest.mark.alike(1)
 @pytest.mark.parametrize("seed", range(12))
 def test_a_band_is_the_union_of_its_discs(seed: int) -> None:
     rng = np.random.default_rng(seed)
@@ -61,6 +61,7 @@ def test_what_is_no_straight_stretch_is_none() -> None:
     assert are_straight(np.concatenate([line, bowed, back, still]), first).tolist() == [True, False, False, False]
 
 
+@pytest.mark.deeper
 def test_what_is_swept_up_to_a_place_is_the_union_of_the_discs_so_far() -> None:
     """Also where that part of the way lies farther off its own chord than the whole does off its chord."""
     along = np.linspace(0.0, 3000.0, 1001)

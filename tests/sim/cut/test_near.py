@@ -45,6 +45,7 @@ def flower() -> Toolpath:
     return pen.path()
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize("path", [lattice(4), flower()], ids=["lattice", "flower"])
 def test_pieces_come_free_in_their_boxes_as_in_all_of_the_stock(path, monkeypatch):
     kerf = kerf_along(path)
@@ -116,6 +117,7 @@ def test_walls_ahead_are_those_that_a_piece_meets_on_its_way_and_no_others_are_l
     assert said == {False, True}
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize("few", [0, 64])
 def test_stretches_are_looked_at_one_by_one_as_several_together(few, monkeypatch):
     kerf = kerf_along(lattice(3))
@@ -126,6 +128,7 @@ def test_stretches_are_looked_at_one_by_one_as_several_together(few, monkeypatch
     assert [piece.freed for piece in pieces_of(kerf, None, STEEL).freed] == freed
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize("path", [lattice(4), flower()], ids=["lattice", "flower"])
 def test_places_near_a_piece_are_found_by_the_chords_of_their_stretches(path):
     (swept,) = kerf_along(path).swept

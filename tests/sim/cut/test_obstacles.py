@@ -218,7 +218,7 @@ def test_wire_touches_first_where_a_plain_walk_says(clamp: Outline, way: Floats)
 
 
 @pytest.mark.deep
-@settings(max_examples=len(cases(30, 1000)))
+@settings(max_examples=len(cases(10, 1000)))
 @given(outlines(), outlines(reach_um=1000), ways())
 def test_arm_touches_first_where_a_plain_walk_says(clamp: Outline, arm: Outline, way: Floats) -> None:
     touch, before = first(way, swept(clamp, arm))

@@ -74,7 +74,7 @@ def test_straight_on_the_wire_waits_for_the_lag_and_then_follows_on_the_line() -
     assert along == pytest.approx(np.maximum(done - 20.0, 0.0), abs=1e-9)
 
 
-@pytest.mark.alike(2)
+@pytest.mark.alike(1)
 @pytest.mark.parametrize(("radius", "lag"), [(1000.0, 20.0), (9900.0, 150.0), (30.0, 29.0)])
 def test_a_circle_shrinks_to_the_root_of_the_difference_of_squares(radius: float, lag: float) -> None:
     turns = np.linspace(0.0, 24.0 * math.pi, 40_001)
@@ -83,6 +83,7 @@ def test_a_circle_shrinks_to_the_root_of_the_difference_of_squares(radius: float
     assert np.hypot(*wire[-1000:].T) == pytest.approx(math.sqrt(radius**2 - lag**2), abs=1e-5 * radius)
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize(("radius", "lag"), [(30.0, 50.0), (30.0, 40.0)])
 def test_a_circle_smaller_than_the_lag_is_not_cut(radius: float, lag: float) -> None:
     turns = np.linspace(0.0, 100.0 * math.pi, 20_001)

@@ -44,6 +44,7 @@ def cached(out: Path) -> list[bool]:
     return [row["from_cache"] for row in rows(out).values()]
 
 
+@pytest.mark.deeper
 def test_a_program_with_a_drawing_says_how_far_it_is_off(tmp_path: Path) -> None:
     out = tmp_path / "out"
     run_folder(ROOT / "scenarios" / "wrong-side", out)
@@ -184,6 +185,7 @@ def test_one_that_cannot_be_run_or_at_which_drycut_fails_leaves_the_others(shop:
     assert found["02.3b"]["from_cache"]
 
 
+@pytest.mark.deeper
 def test_a_drawing_that_cannot_be_read_is_told_by_its_own_place(
     shop: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

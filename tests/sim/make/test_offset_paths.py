@@ -34,7 +34,7 @@ def test_fillets_at_any_angle_are_written_within_the_bound() -> None:
     """Of 600, 118 were refused, and the worst accepted was 3.0 µm off; then the 86th was, by 1.66."""
     rng = random.Random(23)
     worst = []
-    for _ in cases(25, 1000):
+    for _ in cases(8, 1000):
         text, by_um, side = (
             outline_4b(rng, (300.0, 3000.0)).text,
             rng.uniform(50.0, 150.0),

@@ -57,6 +57,7 @@ def compared(before: Toolpath, after: Toolpath) -> Compared:
     return Compared(tie, ~tie & ~way & (counts == 1) & (ways == 0), way, (sense & ~tie) | ~near | ~reduced & (ways > 2))
 
 
+@pytest.mark.deeper
 def test_3b_comes_back_from_iso_word_for_word_but_for_rounding() -> None:
     rng = random.Random(1)
     rows: Counter[str] = Counter()
@@ -75,6 +76,7 @@ def test_3b_comes_back_from_iso_word_for_word_but_for_rounding() -> None:
     assert rows["tie"] <= _MOST_OTHER * rows["all"]
 
 
+@pytest.mark.deeper
 @pytest.mark.parametrize("seed", cases(1, 4))
 def test_iso_has_the_same_path_in_every_dialect(seed: int) -> None:
     program = load_program(sound.sound_program(random.Random(100 + seed)).data, "part.3b")

@@ -309,6 +309,7 @@ def assert_causes_bound_the_whole(found: Deviations) -> None:
     assert found.wire.max_um <= steps + causes.table.max_um + causes.wire.max_um + 1e-3
 
 
+@pytest.mark.deeper
 def test_a_lag_leaves_steps_and_table_as_they_are() -> None:
     case = load_scenario(SCENARIOS / "round-hole")
     straight, lagging = (

@@ -88,6 +88,7 @@ def test_the_nearest_of_many_scattered_lines_and_arcs_is_that_of_all_pairs(seed:
         assert near == np.flatnonzero(exact <= exact.min())[0]
 
 
+@pytest.mark.deeper
 @settings(max_examples=8)
 @given(st.integers(0, 10**6), st.floats(-30.0, 30.0), st.floats(-30.0, 30.0), st.floats(-0.003, 0.003))
 def test_the_largest_distance_is_right_to_a_hundredth_of_a_micrometre(

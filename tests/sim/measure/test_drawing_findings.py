@@ -74,6 +74,7 @@ def test_an_edge_that_is_drawn_elsewhere_is_found_both_ways(tmp_path: Path) -> N
     )
 
 
+@pytest.mark.deeper
 def test_a_missing_offset_a_wrong_side_and_a_slip_of_units_are_named(tmp_path: Path) -> None:
     named = {
         "offset-missing": square(tmp_path / "missing.dxf", 2.0, 2.0, 6.0),
@@ -120,6 +121,7 @@ def test_outlines_become_edges_with_their_blocks_and_the_side_of_the_part(tmp_pa
     assert Point(*middle[right & upright].mean(axis=0)).x == pytest.approx(1900.0, abs=0.6)
 
 
+@pytest.mark.deeper
 def test_a_drawing_that_cannot_be_read_ends_the_run_before_it_begins(tmp_path: Path) -> None:
     (tmp_path / "part.3b").write_text(LED_SQUARE, "utf-8")
     (tmp_path / "part.dxf").write_text("no drawing", "utf-8")

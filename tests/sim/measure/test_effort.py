@@ -75,6 +75,7 @@ def test_a_program_of_too_many_contours_is_compared_with_nothing(tmp_path: Path)
     assert b"the program has 2,001 closed contours, and no more than 2,000 are compared" in done.stderr
 
 
+@pytest.mark.deeper
 def test_a_program_of_too_many_passes_is_compared_with_nothing(tmp_path: Path) -> None:
     (tmp_path / "part.3b").write_text("B100B0B400GYNR1\n" * 10_001 + "DD\n", "ascii")
     done = run_inside("compare", tmp_path / "part.3b", ROOT / "scenarios" / "punch" / "drawing.dxf")

@@ -112,6 +112,7 @@ def test_a_fault_of_a_whole_program_is_named(seed: int, fault: str) -> None:
     assert not found.passes
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize("fault", ["offset-missing", "shifted"])
 def test_a_fault_of_one_contour_is_named_with_its_last_blocks(fault: str) -> None:
     one = next(made for made in (case(seed, fault, "plate") for seed in range(30, 60)) if len(made.made.figures) > 2)
@@ -123,6 +124,7 @@ def test_a_fault_of_one_contour_is_named_with_its_last_blocks(fault: str) -> Non
         assert math.dist(shift, (-0.048, 0.036)) < 0.003
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize(("seed", "fault"), [(42, ""), (46, "offset-missing")])
 def test_the_exact_path_and_the_edge_as_cut_give_one_verdict(seed: int, fault: str) -> None:
     one = case(seed, fault)

@@ -115,6 +115,7 @@ def test_the_flat_is_as_wide_as_backlash_makes_it() -> None:
     assert stands == pytest.approx(50_000.0 * np.sin(np.arccos(1.0 - 10.0 / 50_000.0)), abs=110.0)
 
 
+@pytest.mark.deeper
 @settings(max_examples=15)
 @given(few_um, few_um, signed_um, signed_um, signed_um)
 def test_parts_that_overlap_are_told_apart(
@@ -148,6 +149,7 @@ def test_each_direction_has_its_own_radius() -> None:
     assert parts.radius_um == pytest.approx((1.0, -2.0), abs=EXACT_UM)
 
 
+@pytest.mark.deeper
 @settings(max_examples=15)
 @given(st.floats(0.6, 8.0), few_um, st.floats(0.5, 6.0))
 def test_a_spike_is_as_high_as_it_stands_out(height_um: float, play_um: float, at_deg: float) -> None:

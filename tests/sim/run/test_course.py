@@ -40,6 +40,7 @@ def course_of_text(text: str) -> Course:
         return course_of(recording)
 
 
+@pytest.mark.alike(2)
 @pytest.mark.parametrize("name", ["wire-lag-corner", "wire-lag-arc", "backlash", "friction", "servo-trip"])
 def test_the_deviation_at_every_sample_is_that_of_the_measure(name: str) -> None:
     course = course_of_scenario(name)

@@ -99,6 +99,7 @@ def test_without_friction_and_play_the_table_comes_to_rest_where_the_steps_end()
     assert lag[-1].max() < 0.01  # µm: 0.25 % of the last steps still ring
 
 
+@pytest.mark.deeper
 @pytest.mark.parametrize(("name", "at_most_um"), [("keyhole", 3.0), ("round-hole", 1.5)])
 def test_without_friction_and_play_the_table_adds_next_to_nothing_to_the_steps(name: str, at_most_um: float) -> None:
     text = (SCENARIOS / name / "program.3b").read_text("utf-8")

@@ -53,6 +53,7 @@ def test_chord_error_is_that_of_the_closed_form() -> None:
     assert run.deviations.steps.max_um < 0.5 * 2**0.5 + run.deviations.sampling.chord_um + 1.0  # µm
 
 
+@pytest.mark.deeper
 def test_the_card_carries_nothing_from_block_to_block() -> None:
     scenario = load_scenario(SCENARIOS / "keyhole")
     run = dry_run(

@@ -51,6 +51,7 @@ def test_trace_holds_every_step_from_the_start(tmp_path: Path) -> None:
     assert trace["t_s"].shape == trace["x_um"].shape == trace["y_um"].shape == trace["block"].shape
 
 
+@pytest.mark.deeper
 def test_two_runs_give_the_same_bytes(tmp_path: Path) -> None:
     for name in ("a", "b"):
         run_into(tmp_path / name, parse_program(TEXT), plain_scenario(), silent, trace=True)
@@ -91,6 +92,7 @@ def test_what_is_no_trace_is_told_as_such(tmp_path: Path, content: bytes | str |
         read_trace(file)
 
 
+@pytest.mark.deeper
 def test_a_damaged_trace_is_told_as_such_or_read_whole(tmp_path: Path) -> None:
     run_into(tmp_path, parse_program(TEXT), plain_scenario(), silent, trace=True)
     sound, file, rng = (tmp_path / "trace.npz").read_bytes(), tmp_path / "damaged.npz", random.Random(20261128)
@@ -111,7 +113,7 @@ def test_a_damaged_trace_is_told_as_such_or_read_whole(tmp_path: Path) -> None:
     assert min(outcomes.values()) > 0
 
 
-@pytest.mark.alike(1)
+@pytest.mark.deeper
 @pytest.mark.parametrize("name", ["t_s", "block", "step_t_s", "step_x_um"])
 def test_a_trace_with_an_array_of_another_kind_is_none(tmp_path: Path, name: str) -> None:
     run_into(tmp_path, parse_program(TEXT), plain_scenario(), silent, trace=True)
@@ -122,6 +124,7 @@ def test_a_trace_with_an_array_of_another_kind_is_none(tmp_path: Path, name: str
             read_trace(tmp_path / "other.npz")
 
 
+@pytest.mark.deeper
 def test_a_trace_with_a_member_that_is_no_array_is_none(tmp_path: Path) -> None:
     run_into(tmp_path, parse_program(TEXT), plain_scenario(), silent, trace=True)
     with zipfile.ZipFile(tmp_path / "trace.npz") as was, zipfile.ZipFile(tmp_path / "other.npz", "w") as other:
@@ -162,6 +165,7 @@ def test_a_file_in_the_folders_place_is_refused(tmp_path: Path) -> None:
         pass
 
 
+@pytest.mark.deeper
 def test_a_folder_in_a_files_place_is_refused_before_anything_changes(tmp_path: Path) -> None:
     run_into(tmp_path, parse_program(TEXT), plain_scenario(), silent)
     (tmp_path / "report.json").unlink()

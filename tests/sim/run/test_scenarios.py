@@ -20,6 +20,7 @@ from sim.setup.scenario import load_scenario
 
 PAGE = (ROOT / "docs" / "scenarios.md").read_text("utf-8")
 FOLDERS = sorted(path for path in SCENARIOS.iterdir() if path.is_dir())
+LONG = {"logo", "gear"}  # made of splines, a program of its drawing takes seconds
 
 
 def times_in(part: object) -> Iterator[float]:
@@ -30,7 +31,11 @@ def times_in(part: object) -> Iterator[float]:
         yield from times_in(value)
 
 
-@pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: folder.name)
+@pytest.mark.parametrize(
+    "folder",
+    [pytest.param(folder, marks=pytest.mark.deeper if folder.name in LONG else ()) for folder in FOLDERS],
+    ids=lambda folder: folder.name,
+)
 def test_scenario_is_as_it_expects_and_its_report_as_documented(folder: Path) -> None:
     """In one test, so that no two processes make and run the same scenario."""
     run = scenario_run(folder.name)

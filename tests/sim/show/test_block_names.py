@@ -60,6 +60,7 @@ def examples() -> Iterator[tuple[str, Example]]:
             yield code, shown
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_no_finding_counts_a_block_that_has_a_label(language: Language) -> None:
     called = set()

@@ -200,6 +200,7 @@ def test_strokes_alike_in_turn_are_one_path_below_what_comes_later() -> None:
     assert drawn == [("M1,0L1,9M2,0L2,9", ""), ("M3,0L3,9", ""), ("", "circle"), ("M4,0L4,9", "")]
 
 
+@pytest.mark.deeper
 def test_a_line_of_very_many_places_is_drawn_by_fewer_near_it() -> None:
     x = np.linspace(0.0, 1500.0, 200_000)
     line = np.column_stack([x, 400.0 + 300.0 * np.sin(x / 90.0) + np.where(np.arange(len(x)) % 2, 0.12, -0.12)])

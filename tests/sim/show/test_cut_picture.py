@@ -257,6 +257,7 @@ def test_flags_keep_apart_and_lose_no_finding(seed: int) -> None:
     assert apart.min(axis=1).max() < (1 + math.sqrt(2)) * 900.0  # across a cell, and from there to the next flag
 
 
+@pytest.mark.deeper
 def test_100_000_findings_in_time() -> None:
     path = spiral(20_000)
     begin = time.perf_counter()

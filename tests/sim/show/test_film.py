@@ -254,6 +254,7 @@ def test_a_trip_ends_the_run_and_says_so(tripped: Course) -> None:
     assert "X 轴" in last_event(tripped, tripped.duration_s, 1.0, Words("zh")).value
 
 
+@pytest.mark.alike(2)
 @pytest.mark.parametrize("name", ["wire-lag-corner", "wire-lag-arc", "backlash", "friction", "servo-trip"])
 def test_no_frame_shows_more_deviation_than_the_report(name: str) -> None:
     course, say = course_of(scenario_recording(name)), Words("en")

@@ -91,6 +91,7 @@ def sheet(browsers: Browsers, tmp_path_factory: pytest.TempPathFactory) -> Itera
     pages.close()
 
 
+@pytest.mark.alike(4)
 @pytest.mark.parametrize(
     ("changed", "same"),
     [

@@ -75,6 +75,7 @@ def test_an_offset_within_the_numbers_is_told_as_its_header_has_it() -> None:
     assert fact(sheet(header.format(f=0.0) + SQUARE + "DD\n"), "offset by the controller") == "none: path as written"
 
 
+@pytest.mark.deeper
 def test_passes_within_the_path_are_told_with_their_distances() -> None:
     run = scenario_run("plate")
     told = fact(sheet_of(run, build_report(run), NO_PIECES), "passes")

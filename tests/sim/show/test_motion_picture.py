@@ -216,6 +216,7 @@ def test_golden() -> None:
     assert_golden(draw_motion(pixels(600), scenario_run("lost-steps")).image(), "motion.png")
 
 
+@pytest.mark.deeper
 def test_a_program_of_thousands_of_blocks_shows_round_numbers_that_do_not_overlap() -> None:
     text = " ".join(f"B{20 + block % 3}B0B{20 + block % 3}GXL{1 + 2 * (block % 2)}" for block in range(2000)) + " DD"
     canvas = drawn(run_text(text))

@@ -115,6 +115,7 @@ def test_the_kerf_of_a_film_takes_the_tone_of_the_pass_that_went_over_it_last() 
         assert np.abs(frame[y, x].astype(int) - LIGHT[paint]).max() <= 3
 
 
+@pytest.mark.deeper
 def test_the_replay_names_and_groups_passes(open_page: OpenPage) -> None:
     page = open_page(replay_page(trimmed_run())).page
     page.wait_for_function("document.getElementById('loading').hidden")

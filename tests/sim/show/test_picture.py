@@ -137,6 +137,7 @@ def extent(mask: np.ndarray, axis: int) -> tuple[int, int]:
     return int(hit[0]), int(hit[-1]) + 1
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize(("direction", "along_axis"), [((20000, 0), 1), ((0, 20000), 0)])
 def test_kerf_is_to_scale(direction: tuple[int, int], along_axis: int) -> None:
     picture = drawn(lines(np.array([direction])), 1500.0)

@@ -180,6 +180,7 @@ def assert_replayed(page: Any, recording: Recording) -> None:
     assert apart.max() <= 1.0
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize(
     "changes",
     [
@@ -250,6 +251,7 @@ DECISIONS = """() => Array.from({length: replay.steps}, (_, at) => model.decisio
     [Number(d.f), d.axis, d.sign, d.motion, d.rule, Number(d.fAfter), d.counted, d.row])"""
 
 
+@pytest.mark.deeper
 def test_every_decision_is_the_step_that_the_tape_makes(empty: "Page") -> None:
     program = all_ways()
     recording = recording_of(program_text(program))
@@ -328,6 +330,7 @@ def test_every_decision_of_the_keyhole_is_its_step(empty: "Page") -> None:
     assert checked == expected[100::101]
 
 
+@pytest.mark.deeper
 def test_steps_are_the_same_in_whatever_order_one_asks_for_them(empty: "Page") -> None:
     page = stepped_page(empty, KEYHOLE)
     astray = page.evaluate("""() => {
@@ -372,6 +375,7 @@ def test_the_card_decides_nothing(empty: "Page") -> None:
     assert page.evaluate("[model.decision(1), model.stateAt(0).count_left]") == [None, None]
 
 
+@pytest.mark.deeper
 def test_j_counts_down_on_its_axis_alone(empty: "Page") -> None:
     program = all_ways()[:20]
     page = replay_of(empty, document_of(program_text(program)))
@@ -445,6 +449,7 @@ def assert_as_the_report_says(page: Any, recording: Recording) -> None:
     assert max(between) <= most_um + off_by
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize("lag_um", [0.0, 40.0])
 def test_the_deviation_of_the_wire_is_that_of_the_report(empty: "Page", lag_um: float) -> None:
     text = "B0B300B300GYL2 B300B0B600GYNR1 B40B5B40GXL1 B30B60B60GYL3 B30B40B90GXSR4 DD"
@@ -453,7 +458,7 @@ def test_the_deviation_of_the_wire_is_that_of_the_report(empty: "Page", lag_um: 
     assert recording.run.deviations.wire.max_um > 1.0
 
 
-@pytest.mark.alike(2)
+@pytest.mark.alike(1)
 @pytest.mark.parametrize("name", ["wire-lag-corner", "wire-lag-arc", "backlash", "friction", "servo-trip"])
 def test_no_moment_of_a_replay_deviates_more_than_the_report(empty: "Page", name: str) -> None:
     recording = scenario_recording(name)
@@ -609,6 +614,7 @@ def long_document() -> dict[str, Any]:
     }
 
 
+@pytest.mark.deeper
 def test_a_million_steps_are_small_and_soon_decoded(empty: "Page") -> None:
     """A table that jitters at random is the worst case; the bound on the time is ten times what it takes here."""
     document = {**document_of(TRIANGLE), **long_document()}

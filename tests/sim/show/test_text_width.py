@@ -59,6 +59,7 @@ def test_every_finding_of_the_catalogue_fits_and_says_all(language: Language) ->
                 assert squeezed(text) in squeezed("".join(shown)), (code, text)
 
 
+@pytest.mark.deeper
 def test_every_example_fits() -> None:
     for code in CODES:
         shown = example(code)

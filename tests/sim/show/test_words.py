@@ -230,7 +230,7 @@ def test_an_unknown_key_is_a_key_error(key: str) -> None:
         bilingual(key)
 
 
-@pytest.mark.alike(3)
+@pytest.mark.alike(1)
 @pytest.mark.parametrize("form", ["text", "concise", "json", "sarif", "junit", "github", "gitlab"])
 def test_a_check_reads_no_words_but_its_own(form: str, tmp_path: Path) -> None:
     program = tmp_path / "part.3b"

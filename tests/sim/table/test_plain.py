@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import numpy as np
+from depth import cases
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from plain_table import TICK_S, PlainAxis, plain_motor, plain_places
@@ -99,7 +100,7 @@ def apart_um(model: TableModel, axes: list[PlainAxis], axis_runs: tuple[Runs, Ru
     return farthest
 
 
-@settings(max_examples=15)
+@settings(max_examples=len(cases(6, 15)))
 @given(tight, tight, st.floats(0.1, 1.5), runs, runs)
 def test_without_slack_it_agrees_with_a_plain_table(
     saddle: PlainAxis, carriage: PlainAxis, ratio: float, x_runs: Runs, y_runs: Runs
@@ -107,7 +108,7 @@ def test_without_slack_it_agrees_with_a_plain_table(
     assert apart_um(*table_of(saddle, carriage, ratio, 1e5), (x_runs, y_runs)) < 0.02  # µm
 
 
-@settings(max_examples=15)
+@settings(max_examples=len(cases(6, 15)))
 @given(loose, loose, st.floats(0.1, 1.5), runs, runs)
 def test_with_slack_it_agrees_with_a_plain_table(
     saddle: PlainAxis, carriage: PlainAxis, ratio: float, x_runs: Runs, y_runs: Runs
@@ -115,7 +116,7 @@ def test_with_slack_it_agrees_with_a_plain_table(
     assert apart_um(*table_of(saddle, carriage, ratio, 1e5), (x_runs, y_runs)) < 0.15  # µm
 
 
-@settings(max_examples=10)
+@settings(max_examples=len(cases(4, 10)))
 @given(tight, tight, st.floats(60.0, 200.0), runs, runs)
 def test_at_the_limit_of_its_force_it_agrees_with_a_plain_table(
     saddle: PlainAxis, carriage: PlainAxis, force_n: float, x_runs: Runs, y_runs: Runs

@@ -76,6 +76,7 @@ def both(model: TableModel, pulses: Pulses, until_s: float, start_um: tuple[floa
     return [draw(model, pulses, ticks, start_um, engine) for engine in ("compiled", "pymunk")]
 
 
+@pytest.mark.deeper
 def test_random_tables_move_as_in_pymunk_and_lose_and_trip_in_the_same_tick() -> None:
     kinds = set()
     for seed in range(12):
@@ -87,7 +88,7 @@ def test_random_tables_move_as_in_pymunk_and_lose_and_trip_in_the_same_tick() ->
     assert kinds == {"lost-steps", "trip"}
 
 
-@pytest.mark.alike(2)
+@pytest.mark.alike(1)
 @pytest.mark.parametrize(
     ("name", "feed_um_s"),
     [("dk7732", 180.0), ("dk7740", 43.75), ("dk7750", 500.0), ("servo-400x500", 10_000.0)],

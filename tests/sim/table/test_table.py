@@ -31,6 +31,7 @@ def motors_um(pulses: Pulses, t_s: Floats, step_time_s: float = STEPPER.step_tim
     return place
 
 
+@pytest.mark.deeper
 def test_motors_go_evenly_from_step_to_step_and_fast_steps_add_up() -> None:
     pulses = pulses_of(lambda t: 3000.0 * t, lambda t: 500.0 * np.sin(40.0 * t), 0.2)
     t_s = np.linspace(0.0, 0.21, 3000)

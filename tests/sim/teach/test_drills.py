@@ -46,7 +46,7 @@ def drills(name: str, number: int = 1, count: int = 12) -> tuple[Drill, ...]:
 NAMES = ("die", "iso-die", "keyhole", "rough-and-trim")
 
 
-@pytest.mark.alike(2)
+@pytest.mark.alike(1)
 @pytest.mark.parametrize("name", NAMES)
 def test_a_drill_differs_from_its_program_in_the_lines_that_it_tells_alone(name: str) -> None:
     before = of_scenario(name).text.splitlines()
@@ -60,6 +60,7 @@ def test_a_drill_differs_from_its_program_in_the_lines_that_it_tells_alone(name:
         assert max(touched) - min(touched) <= 2  # two neighbours are swapped
 
 
+@pytest.mark.alike(2)
 @pytest.mark.parametrize("name", NAMES)
 def test_each_drill_moves_the_path_or_cannot_be_obeyed(name: str) -> None:
     sound = of_scenario(name)
@@ -69,6 +70,7 @@ def test_each_drill_moves_the_path_or_cannot_be_obeyed(name: str) -> None:
         assert has_moved(sound.toolpath, damaged.toolpath) or told - {(f.code, f.line) for f in sound.findings}
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize("name", NAMES)
 def test_easy_drills_come_first_and_are_told_by_the_text_of_their_lines(name: str) -> None:
     levels = [LEVELS.index(drill.level) for drill in drills(name)]
@@ -107,6 +109,7 @@ def test_a_set_has_as_many_kinds_as_there_are_and_is_the_same_for_all() -> None:
     assert len({drill.group for drill in first}) >= 6
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize("level", LEVELS)
 def test_one_level_can_be_asked_for(level: str) -> None:
     asked = DrillRequest(3, 6, next(one for one in LEVELS if one == level))
@@ -114,6 +117,7 @@ def test_one_level_can_be_asked_for(level: str) -> None:
     assert [drill.level for drill in made] == [level] * 6
 
 
+@pytest.mark.deeper
 def test_findings_of_a_drill_are_those_that_its_program_had_not() -> None:
     sound = of_scenario("iso-die")
     before = [(one.code, sound.excerpt(one.line)) for one in check_program(sound).findings if one.line]
@@ -123,6 +127,7 @@ def test_findings_of_a_drill_are_those_that_its_program_had_not() -> None:
             assert said not in before or found.code.startswith("ISO1")
 
 
+@pytest.mark.deeper
 def test_a_program_with_little_to_damage_gives_the_few_drills_that_there_are() -> None:
     made = drills_of(parse_program("B1000B0B1000GXL1\nDD\n"), CheckSettings(), DrillRequest(1, 30))
     assert 0 < len(made) <= 30
@@ -145,7 +150,7 @@ def test_every_kind_of_fault_can_be_made(name: str) -> None:
     assert made > 0
 
 
-@pytest.mark.alike(1)
+@pytest.mark.deeper
 @pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
 def test_damaged_programs_keep_the_ends_of_their_lines(end: str) -> None:
     program = parse_program(SQUARE.replace("\n", end))

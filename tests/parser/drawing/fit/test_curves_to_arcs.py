@@ -103,6 +103,7 @@ def test_an_ellipse_takes_as_many_arcs_as_nodes_on_it_allow(tolerance_um: float,
     assert at_most_off(ellipse_pieces(ELLIPSE[0]), fitted.curves) <= PROOFS_DIFFER * fitted.max_um
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize(("tolerance_um", "arcs"), [(1.0, 21), (2.0, 17), (5.0, 12)])
 def test_a_cam_drawn_as_a_spline_takes_no_more_arcs_than_the_cam(tolerance_um: float, arcs: int) -> None:
     fitted = _of_spline(_cam(), tolerance_um)
@@ -127,6 +128,7 @@ def _integral(spline: Spline) -> float:
     return float((np.cbrt(np.abs(np.diff(bend)) / step[1:-1]) * step[1:-1]).sum())
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize("tolerance_um", [1.0, 1.5, 4.5])
 def test_the_last_arc_of_an_ellipse_is_not_short(tolerance_um: float) -> None:
     """About vertices the others cannot all share what it lacks, but those before it can."""
@@ -137,6 +139,7 @@ def test_the_last_arc_of_an_ellipse_is_not_short(tolerance_um: float) -> None:
     assert length.min() > 0.65 * np.cbrt(ARC_CONSTANT * tolerance_um / change.max())
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize("tolerance_um", [0.05, 0.2, 1.0])
 def test_the_number_of_arcs_is_that_of_the_closed_form(tolerance_um: float) -> None:
     control = 1000.0 * np.array([(0, 0), (8, 9), (18, -6), (28, 8), (38, -4), (48, 9), (56, 2), (64, 10)])
@@ -159,6 +162,7 @@ def _random_open(random: np.random.Generator) -> Spline:
     return _spline(control, int(random.integers(2, 5)), random.uniform(0.5, 2.0, number))
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize("drawn", [_random_closed, _random_open])
 def test_arcs_of_any_spline_are_within_the_tolerance_both_ways(drawn: Callable[[np.random.Generator], Spline]) -> None:
     random = np.random.default_rng(4)
@@ -264,6 +268,7 @@ HOSTILE: dict[str, Spline] = {
 }
 
 
+@pytest.mark.deeper
 def test_hostile_splines_end_in_curves_within_the_tolerance_or_are_refused() -> None:
     fitted, refused = arcs_of_splines(list(HOSTILE.values()), 2.0)
     assert fitted.max_um <= 2.0

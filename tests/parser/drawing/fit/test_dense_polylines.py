@@ -101,7 +101,7 @@ def _counts(fitted: Fitted) -> tuple[int, int]:
     return int(fitted.curves.is_arc.sum()), int((~fitted.curves.is_arc).sum())
 
 
-@pytest.mark.alike(6)
+@pytest.mark.alike(3)
 @pytest.mark.parametrize("tolerance_um", [0.5, 5.0])
 @pytest.mark.parametrize("seed", range(12))
 def test_what_is_fitted_lies_within_its_bound_of_what_is_drawn_and_the_bound_within_the_tolerance(seed, tolerance_um):
@@ -225,6 +225,7 @@ def test_an_open_polyline_keeps_its_ends_and_its_few_lines():
     assert fitted.curves.end_um[0].tolist() == vertices[-1].tolist()
 
 
+@pytest.mark.alike(2)
 @pytest.mark.parametrize("seed", range(6))
 def test_the_bulge_found_is_among_those_a_plain_search_finds(seed):
     """Of 1,500 bulges that are tried one by one, those within the tolerance are round the one that is found."""

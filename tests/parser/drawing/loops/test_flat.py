@@ -42,6 +42,7 @@ def test_a_drawing_of_nothing_else_keeps_it() -> None:
     assert (len(drawing.loops), drawing.left_out) == (1, ())
 
 
+@pytest.mark.deeper
 def test_widths_are_those_of_the_narrowest_rectangle_that_shapely_finds() -> None:
     rng = random.Random(5)
     for _ in range(300):

@@ -176,6 +176,7 @@ def test_a_slit_there_and_back_keeps_its_loop_whole():
 # Cost
 
 
+@pytest.mark.deeper
 def test_ten_thousand_lines_and_as_many_again_take_a_part_of_a_second():
     entities = _separate(*(square(12 * (at % 50), 12 * (at // 50), 10) for at in range(2500)))
     begin = time.process_time()

@@ -37,6 +37,7 @@ def counted(tool: str, *options: str) -> dict[str, int]:
     return counts
 
 
+@pytest.mark.alike(1)
 @posix
 @pytest.mark.parametrize(("way", "in_part"), [((), False), (("--moves",), True)])
 def test_a_reader_finds_one_set_after_a_kill_at_any_step(way: tuple[str, ...], in_part: bool) -> None:

@@ -121,6 +121,7 @@ def replace_number(cut: FigureCut, number: int) -> FigureCut:
     return cut._replace(figure=cut.figure._replace(number=number))
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize("language", ["en", "zh"])
 def test_what_fails_is_told_in_both_languages(tmp_path: Path, language: str) -> None:
     done = made_program(plate_file(tmp_path), Making(passes_um=(300.0, 280.0)), Wanted("3b"), plain_scenario())

@@ -54,12 +54,14 @@ def test_an_ellipse_takes_as_few_blocks_as_nodes_on_it_within_the_tolerance(
     assert len(curves) <= most_blocks
 
 
+@pytest.mark.deeper
 def test_a_path_beside_an_ellipse_takes_a_block_for_each_arc_and_two_for_its_leads(path: Path) -> None:
     done = _of_ellipse(path, 2.0, 100.0)
     assert done.plan.drawing.fit is not None
     assert len(done.program.toolpath) == done.plan.drawing.fit.arcs + 2 == 26
 
 
+@pytest.mark.deeper
 def test_a_fitted_contour_without_offset_or_leads_proves_its_path(path: Path) -> None:
     """It begins on an arc, at no whole µm: there is no lead on which a controller could begin to add an offset."""
     done = _of_ellipse(path, 2.0, 0.0)

@@ -403,6 +403,7 @@ def _anything(rng: random.Random) -> list[list[Piece]]:
     return [entity for entity in entities if entity]
 
 
+@pytest.mark.deeper
 def test_what_is_accepted_of_anything_that_may_be_drawn_nests_and_does_not_cross():
     accepted = []
     for seed in range(120):

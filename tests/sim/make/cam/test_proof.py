@@ -55,7 +55,7 @@ def test_beyond_the_travel_nothing_else_speaks_against_a_program(path: Path) -> 
     assert proof.verdict == "fail"
 
 
-@pytest.mark.alike(2)
+@pytest.mark.alike(1)
 def test_a_sound_program_is_proved_and_nothing_speaks_against_it(sound: tuple[Wanted, Proof]) -> None:
     wanted, proof = sound
     assert proof.verdict == "pass"
@@ -102,6 +102,7 @@ def test_a_program_on_the_contour_is_proved_by_its_path_and_that_is_said(path: P
     assert proof.comparison is None
 
 
+@pytest.mark.alike(2)
 def test_the_path_is_laid_in_the_middle_of_the_travel(sound: tuple[Wanted, Proof]) -> None:
     scenario = plain_scenario()
     assert scenario.start_mm is None
@@ -152,7 +153,7 @@ def test_a_wire_on_the_wrong_side_is_found(path: Path) -> None:
     assert {fault.figure for fault in proof.faults} == {number}
 
 
-@pytest.mark.alike(2)
+@pytest.mark.alike(1)
 @pytest.mark.parametrize("by_um", [70.0, 97.0, 103.0, 130.0])
 def test_a_path_at_another_offset_is_found(path: Path, by_um: float) -> None:
     plan = plan_of(path)
@@ -186,6 +187,7 @@ def test_a_fit_that_is_too_coarse_is_found(path: Path) -> None:
     assert proof_of(with_cut(coarse_is_asked, number, coarse), path).verdict == "pass"
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize("kind", ["hole", "outline"])
 def test_a_figure_that_is_not_cut_is_missing(path: Path, kind: str) -> None:
     plan = plan_of(path)
@@ -215,6 +217,7 @@ def test_a_figure_that_is_not_drawn_is_told(path: Path) -> None:
     assert {"stray", "missing"} <= told(proof_of(with_cut(plan, number, elsewhere), path))
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize("passes_um", [(180.0, 120.0, 100.0), (130.0, 100.0)])
 def test_passes_in_the_wrong_order_are_found(path: Path, passes_um: tuple[float, ...]) -> None:
     plan = plan_of(path, Making(passes_um=passes_um, returning="one-way"))
@@ -223,6 +226,7 @@ def test_passes_in_the_wrong_order_are_found(path: Path, passes_um: tuple[float,
     assert "3B312" in told(proof_of(turned, path))
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize(
     "mend",
     [

@@ -24,7 +24,7 @@ def run(path: Path, making: Making) -> MadeProgram:
     return found
 
 
-@pytest.mark.alike(2)
+@pytest.mark.alike(1)
 @pytest.mark.parametrize(
     "making",
     [

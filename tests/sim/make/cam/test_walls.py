@@ -62,6 +62,7 @@ def test_thin_walls_and_contours_that_touch_are_told_with_their_place():
     assert _told(plate, square(10, 10, 10), square(20.3, 10, 10)) == []
 
 
+@pytest.mark.deeper
 def test_a_plate_of_ten_thousand_lines_is_parted_and_looked_at_in_a_part_of_a_second():
     holes = [[piece] for at in range(2500) for piece in square(12 * (at % 50), 12 * (at // 50), 10)]
     drawing = drawing_of([*holes, square(-10, -10, 650)])

@@ -8,6 +8,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
+import pytest
 import sound
 from lsprotocol import types
 from places import ROOT
@@ -147,6 +148,7 @@ def test_an_editor_that_counts_in_utf_8_is_given_edits_of_the_version_that_it_ha
     session(work, capabilities=OF_NEOVIM)
 
 
+@pytest.mark.deeper
 def test_it_speaks_the_language_of_the_editor_or_the_one_asked_for(tmp_path: Path) -> None:
     uri = (tmp_path / "part.3b").as_uri()
 
@@ -158,6 +160,7 @@ def test_it_speaks_the_language_of_the_editor_or_the_one_asked_for(tmp_path: Pat
     assert session(work, "zh-CN", "--lang", "en") == "wrong count axis"
 
 
+@pytest.mark.deeper
 def test_changes_are_checked_and_a_closed_text_has_no_findings(tmp_path: Path) -> None:
     uri = (tmp_path / "part.3b").as_uri()
 
@@ -174,6 +177,7 @@ def test_changes_are_checked_and_a_closed_text_has_no_findings(tmp_path: Path) -
     session(work)
 
 
+@pytest.mark.deeper
 def test_a_block_under_the_pointer_the_figures_and_the_layout(tmp_path: Path) -> None:
     uri = (tmp_path / "die.3b").as_uri()
     blocks = ("B0B300B300GYL2", "B300B0B600GYNR1", "D", "B5000B0B5000GXL1", "D", "B0B300B300GYL2")
@@ -204,6 +208,7 @@ def test_a_block_under_the_pointer_the_figures_and_the_layout(tmp_path: Path) ->
     session(work)
 
 
+@pytest.mark.deeper
 def test_settings_near_the_file_count_and_wrong_ones_are_told(tmp_path: Path) -> None:
     (tmp_path / "drycut.toml").write_text('root = true\nignore = ["3B204"]\n', "utf-8")
     (tmp_path / "odd").mkdir()
@@ -218,6 +223,7 @@ def test_settings_near_the_file_count_and_wrong_ones_are_told(tmp_path: Path) ->
     session(work)
 
 
+@pytest.mark.deeper
 def test_texts_that_are_no_programs_and_names_that_are_none_are_answered() -> None:
     texts = [
         "",
@@ -249,6 +255,7 @@ def test_texts_that_are_no_programs_and_names_that_are_none_are_answered() -> No
     assert told[4] == ["3B204"]
 
 
+@pytest.mark.deeper
 def test_sound_programs_are_silent(tmp_path: Path) -> None:
     texts = [sound.sound_program(random.Random(seed)).data.decode() for seed in range(3)]
 

@@ -174,6 +174,7 @@ def test_what_cannot_be_made_says_why(served: OpenedPage, dxf: bytes, drawing: P
         made(drawing, tmp_path / "made.json", language="/etc/passwd")
 
 
+@pytest.mark.deeper
 def test_a_run_is_held_against_it(served: OpenedPage, dxf: bytes) -> None:
     told = dict.fromkeys(("machine", "thickness_mm", "wire_mm", "gap_mm", "offset_mm", "side"), "")
     wrong = PUNCH.replace("10200", "10300")
@@ -185,6 +186,7 @@ def test_a_run_is_held_against_it(served: OpenedPage, dxf: bytes) -> None:
     assert report["drawing"]["max_um"] > 5.0
 
 
+@pytest.mark.deeper
 def test_what_is_no_drawing_says_why(served: OpenedPage, tmp_path: Path) -> None:
     assert look(served, came(served, b"0\nSECTION\n2\nENTITIES\n0\nEOF\n"))["why"]
     (tmp_path / "part.dxf").write_bytes(b"\x00\xff" * 1000)
@@ -204,6 +206,7 @@ def test_a_name_leads_nowhere_and_numbers_that_are_none_get_nothing(
     assert served.ask("look", json.dumps({"drawing": number})).status == 400
 
 
+@pytest.mark.deeper
 def test_a_drawing_can_be_what_is_opened(tmp_path: Path) -> None:
     with opened_page(drawn(tmp_path, plate)) as served:
         first = json.loads(served.ask("first").body)

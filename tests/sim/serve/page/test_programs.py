@@ -108,6 +108,7 @@ def test_settings_near_a_program_of_the_folder_count_for_it(tmp_path: Path) -> N
     assert row_or_why("part.3b", None, found.read("0"))["verdict"] == "fail"
 
 
+@pytest.mark.deeper
 def test_what_came_and_went_shows_after_another_look_and_numbers_stay(tmp_path: Path) -> None:
     (tmp_path / "a.3b").write_text(SQUARE)
     with opened_page(tmp_path) as served:

@@ -201,6 +201,7 @@ def test_a_text_that_is_no_program_is_answered(served: OpenedPage, text: str) ->
     assert "\x1b" not in answer["name"]
 
 
+@pytest.mark.deeper
 def test_settings_near_the_first_file_count_for_it_alone(tmp_path: Path) -> None:
     (tmp_path / "drycut.toml").write_text('root = true\nignore = ["3B204"]\n', "utf-8")
     (tmp_path / "part.3b").write_text(WRONG, "utf-8")
@@ -213,6 +214,7 @@ def test_settings_near_the_first_file_count_for_it_alone(tmp_path: Path) -> None
         assert len(told["findings"]) == 1
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize("how", ["button", signal.SIGINT, signal.SIGTERM])
 def test_it_ends_well_by_its_button_and_by_signals(how: str | signal.Signals) -> None:
     with opened_page() as served:
@@ -238,6 +240,7 @@ def test_it_lives_while_a_page_is_seen() -> None:
     assert life.is_over
 
 
+@pytest.mark.deeper
 def test_what_cannot_be_opened_is_said(tmp_path: Path, served: OpenedPage) -> None:
     done = run_command("open", "nowhere.3b", "--no-browser", cwd=tmp_path)
     assert (done.returncode, done.stdout) == (2, b"")
@@ -305,6 +308,7 @@ def asked_more(served: OpenedPage, job: str, **values: str) -> dict:
     return json.loads(answer.body)
 
 
+@pytest.mark.deeper
 def test_a_film_and_all_pictures_of_the_run_are_made_when_they_are_asked_for(served: OpenedPage) -> None:
     run = ran(served)["run"]
     assert asked_more(served, "film")["job"] == "film"
@@ -320,6 +324,7 @@ def test_a_film_and_all_pictures_of_the_run_are_made_when_they_are_asked_for(ser
     assert state["verdict"] == "pass", "the run is still told"
 
 
+@pytest.mark.deeper
 def test_fault_drills_of_a_set_are_made_of_the_program_that_ran(served: OpenedPage) -> None:
     run = ran(served)["run"]
     asked_more(served, "drills")
@@ -357,6 +362,7 @@ def test_a_film_that_cannot_be_is_refused_before_anything_is_read_or_run(values:
         _film({**FILM, **values})
 
 
+@pytest.mark.deeper
 def test_what_is_wrong_with_a_film_is_said_and_the_run_stays(served: OpenedPage) -> None:
     before = ran(served)["files"]
     asked_more(served, "film", form="exe")
@@ -415,6 +421,7 @@ def test_what_cannot_be_run_says_why(served: OpenedPage) -> None:
     assert "no block in the file" in state["why"]["en"]
 
 
+@pytest.mark.deeper
 @pytest.mark.skipif(not Path("/proc").is_dir(), reason="asks the kernel of Linux for processes")
 def test_a_killed_server_leaves_no_run_behind(tmp_path: Path) -> None:
     with opened_page() as served:
@@ -460,6 +467,7 @@ def test_the_address_without_its_last_slash_leads_to_the_page(served: OpenedPage
     assert (answer.status, answer.headers["location"]) == (308, served.address)
 
 
+@pytest.mark.deeper
 def test_a_run_is_read_as_the_check_beside_it_is(tmp_path: Path) -> None:
     (tmp_path / "drycut.toml").write_text('root = true\nunit = "inch"\n', "utf-8")
     text = "G92 X0 Y0\nG01 X10000 F1\nG01 X-10000\nM02\n"

@@ -116,6 +116,7 @@ def test_the_command_writes_it_and_ends(tmp_path: Path) -> None:
     assert sorted(file.name for file in (tmp_path / "new").iterdir()) == ["drycut.desktop", "drycut.svg"]
 
 
+@pytest.mark.deeper
 def test_what_cannot_be_opened_from_an_icon_is_said_on_the_page(tmp_path: Path) -> None:
     with opened_page(tmp_path / "gone.3b", "--from-icon") as served:
         first = json.loads(served.ask("first").body)
@@ -126,6 +127,7 @@ def test_what_cannot_be_opened_from_an_icon_is_said_on_the_page(tmp_path: Path) 
         _programs(tmp_path, from_icon=False)
 
 
+@pytest.mark.deeper
 @pytest.mark.skipif(not Path("/bin/sh").exists(), reason="closes what a terminal would be")
 def test_it_runs_where_there_is_no_terminal_at_all() -> None:
     with socket.socket() as free:
