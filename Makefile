@@ -1,12 +1,13 @@
 # `make demo` and `make test` do all the set-up on a fresh machine with Python 3.11 or newer.
 PYTHON ?= python3
-BIN := .venv/bin
-READY := .venv/.ready
+VENV ?= .venv
+BIN := $(VENV)/bin
+READY := $(VENV)/.ready
 
 # Tests start hundreds of processes: each would compile again all that it imports, and each core all tests.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: demo test suite deep lint style types imports scripts browser bench steps mutate survivors fuzz guided golden pages lock release clean
+.PHONY: demo test suite lanes deep lint style types imports scripts browser bench steps mutate survivors fuzz guided golden pages lock release clean
 
 demo: $(READY)
 	$(BIN)/drycut run scenarios/keyhole -o out/keyhole
@@ -20,6 +21,14 @@ test: browser scripts
 # Each core begins with a run of files, as their tests share what they make, and takes from the others when it is done.
 suite: $(READY)
 	$(BIN)/pytest -m "not alone" --numprocesses auto --dist worksteal
+
+# The suite on each Python that the project supports and this machine has, in an environment of its own.
+lanes:
+	@for version in 3.11 3.12 3.13 3.14; do \
+		if ! command -v python$$version >/dev/null; then echo "lane $$version: there is no python$$version"; continue; fi; \
+		echo "lane $$version"; \
+		$(MAKE) --no-print-directory PYTHON=python$$version VENV=.venv-$$version browser suite || exit; \
+	done
 
 # Promises that hold for any input, on all the cases that are promised: hours, where the suite takes some of them.
 deep: $(READY)
@@ -121,7 +130,7 @@ release: $(READY)
 	@ls -l dist
 
 clean:
-	rm -rf .venv node_modules out dist
+	rm -rf .venv .venv-* node_modules out dist
 
 node_modules/.package-lock.json: package-lock.json .npmrc
 	npm ci --silent --no-audit --no-fund
@@ -129,7 +138,7 @@ node_modules/.package-lock.json: package-lock.json .npmrc
 
 $(READY): pyproject.toml requirements-lock.txt
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "drycut needs Python 3.11 or newer; this is " + sys.version.split()[0])'
-	$(PYTHON) -m venv --clear .venv
+	$(PYTHON) -m venv --clear $(VENV)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --requirement requirements-lock.txt
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --editable .
 	$(BIN)/python -m sim.cli.compile
