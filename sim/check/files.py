@@ -4,10 +4,13 @@ import glob
 import os
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 from parser.findings.errors import FileUnreadableError, Message
 from parser.program import suffixes
+
+STORED: Final = "drycut-check.json"
+"""File of results (`sim.check.stored`), which is no program wherever it stands."""
 
 
 def _none(_: Path) -> bool:

@@ -130,6 +130,11 @@ def load_own_checks() -> None:
     _offered()
 
 
+def has_own_checks() -> bool:
+    """Whether there are any here."""
+    return bool(_offered())
+
+
 def with_own_checks(program: Program, checked: Checked) -> Checked:
     """What the checks of drycut found, and what those of one's own find besides.
 

@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 import click
 
-from parser.findings.errors import Message
+from parser.findings.errors import FileUnreadableError, Message
 from sim.check.settings.read import FAIL_ON
 from sim.cli.check.outputs import Output
 from sim.cli.options import UNIT, OwnOrNamed, RegisterValue, setting_options, with_options
-from sim.cli.spoken import Spoken, spoken
+from sim.cli.spoken import Spoken, spoken, words
 from sim.cli.spoken.values import FilePath, offer_files, offer_machines
 from sim.cli.spread import Spread, pool_of, spread_options
 from sim.setup.wire import DIAMETER, SPARK_GAP
@@ -77,6 +77,7 @@ _SELECTION = (
     click.option("--no-config", is_flag=True),
     click.option("--baseline", type=_FILE, metavar="FILE"),
     click.option("--write-baseline", type=_FILE, metavar="FILE"),
+    click.option("--cache", type=FilePath(path_type=Path, file_okay=False), metavar="DIR"),
 )
 _LISTS = (
     click.option("--show-files", is_flag=True),
@@ -129,6 +130,7 @@ def check(  # noqa: PLR0913 - click hands over each option by its name
     statistics: bool,
     quiet: bool,
     exit_zero: bool,
+    cache: Path | None,
     jobs: int | None,
     scheduler: str | None,
     **values: Any,
@@ -151,7 +153,7 @@ def check(  # noqa: PLR0913 - click hands over each option by its name
     _refuse_contradictions(files, formats, values, mode)
     options, style = check_options_of(values), Options(spoken(), quiet=quiet, statistics=statistics)
     outputs = outputs_of(formats, output_file, options.write_baseline)
-    work = _Work(files, options, outputs, style, Spread(jobs, scheduler))
+    work = _Work(files, options, outputs, style, Spread(jobs, scheduler), cache)
     if mode == "--watch":
         from sim.cli.check import watching
 
@@ -175,13 +177,17 @@ def _done(mode: str, work: "_Work", found: "Jobs") -> int:
 
 
 class _Work(NamedTuple):
-    """What a check is asked for: names, options that settings give way to, where results go and how, who does it."""
+    """What a check is asked for: names, options that settings give way to, where results go and how, who does it.
+
+    `cache` is the folder of results that need not be worked out again; None where there is none.
+    """
 
     names: Sequence[str]
     options: "CheckOptions"
     outputs: Sequence["Output"]
     style: "Options"
     spread: Spread
+    cache: Path | None
 
 
 def _exit(code: int, *, is_zero: bool) -> click.exceptions.Exit:
@@ -247,7 +253,7 @@ def _check(work: _Work, found: "Jobs") -> int:
 
     jobs = found.jobs
     outcome, ledger, language = _Outcome(), _ledger(work.options), work.style.language
-    write(outcome.watched(ledger.watched(jobs, _results(jobs, work.spread))), work.outputs, work.style)
+    write(outcome.watched(ledger.watched(jobs, _results(jobs, work))), work.outputs, work.style)
     printer.write(ledger.closed(language), err=True)
     if found.passed_over and not work.style.quiet:
         from sim.cli.check.jobs import passed_over_text
@@ -256,8 +262,26 @@ def _check(work: _Work, found: "Jobs") -> int:
     return outcome.exit_code(language)
 
 
-def _results(jobs: Sequence["Job"], spread: Spread) -> Iterator["CheckResult"]:
-    """Results of the jobs: from workers where they are many, or somebody asked for workers."""
+def _results(jobs: Sequence["Job"], work: _Work) -> Iterator["CheckResult"]:
+    """Results of the jobs; of files that stand as they did those of the cache, where one is given."""
+    if work.cache is None:
+        return _checked(jobs, work.spread)
+    from sim.check.own_checks import has_own_checks
+    from sim.check.stored import with_stored
+    from sim.show.terminal.printer import say
+
+    if has_own_checks():
+        say(words()("commands.check-cache-own-checks"), err=True)
+        return _checked(jobs, work.spread)
+
+    def refused(error: FileUnreadableError) -> None:
+        say(words()("commands.check-cache-refused", why=error.message), err=True)
+
+    return with_stored(jobs, work.cache, lambda others: _checked(others, work.spread), refused)
+
+
+def _checked(jobs: Sequence["Job"], spread: Spread) -> Iterator["CheckResult"]:
+    """Results of the jobs, worked out: by workers where they are many, or somebody asked for workers."""
     from sim.check.file_check import PARALLEL_FROM, check_any
 
     if len(jobs) < PARALLEL_FROM and spread == Spread(None, None):

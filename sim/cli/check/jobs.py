@@ -22,7 +22,7 @@ from parser.text.encoding import printable
 from parser.text.places import cells
 from parser.units import mm
 from sim.check.file_check import Job
-from sim.check.files import FileFilter, find_files
+from sim.check.files import STORED, FileFilter, find_files
 from sim.check.settings import CheckSettings
 from sim.check.settings.model import WIRE_LENGTHS
 from sim.check.settings.read import (
@@ -138,8 +138,8 @@ class _Making:
         return FileFilter(self._is_excluded, self._is_included)
 
     def is_own(self, path: Path) -> bool:
-        """Whether a file is one of drycut's own: settings, or a baseline that was read."""
-        return path.name in NAMES or self._search.placed(path) in self._baselines
+        """Whether a file is one of drycut's own: settings, stored results, or a baseline that was read."""
+        return path.name in (*NAMES, STORED) or self._search.placed(path) in self._baselines
 
     def _is_excluded(self, path: Path) -> bool:
         placed = self._search.placed(path)

@@ -122,3 +122,11 @@ def test_the_working_folder_offers_none(shop: Path) -> None:
     (shop / "site" / "part.3b").write_text(LONG, "ascii")
     done = run_command("check", "part.3b", "--fail-on", "warning", cwd=shop / "site", PYTHONPATH=str(ROOT))
     assert (done.returncode, b"SHOP101" in done.stdout) == (0, False)
+
+
+def test_no_result_is_taken_from_a_folder_where_there_are_any(shop: Path) -> None:
+    plain = drycut(shop, "check", "short.3b")
+    code, out, err = drycut(shop, "check", "short.3b", "--cache", "results")
+    assert (code, out) == plain[:2]
+    assert err.startswith("drycut: --cache: there are checks of one's own")
+    assert not (shop / "results").exists()

@@ -14,7 +14,15 @@ from sim.show.texts.texts import texts
 
 CHINESE = re.compile(r"[\u2e80-\u9fff]")
 OF_ALL = {"usage", "options", "commands", "exit", "colon", "default", "required"}
-OF_MESSAGES = {"error", "written", "compiling", "try-it", "not-expected"} | {
+OF_MESSAGES = {
+    "error",
+    "check-cache-own-checks",
+    "check-cache-refused",
+    "written",
+    "compiling",
+    "try-it",
+    "not-expected",
+} | {
     "no-option",
     "near",
     "missing",
