@@ -182,14 +182,38 @@ def _end_all() -> None:
         ended += 1
 
 
+def _submitted(executor: Executor, work: Callable[[Any], Any], jobs: list[Any]) -> Future[list[Any]]:
+    """Jobs handed over to a worker.
+
+    The first ones start the workers. Told to end while it is forked, a worker would hear nothing: the handler of this
+    process raises where nobody takes it. From Python 3.12 on the executor tells them once, and waits. So the signal
+    waits until the worker is `_ready`.
+    """
+    if not hasattr(signal, "pthread_sigmask"):
+        return executor.submit(_all, work, jobs)
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGTERM})
+    try:
+        return executor.submit(_all, work, jobs)
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
 def _ready() -> None:
     """Make a worker end when it should: Ctrl-C reaches all processes of a terminal, and the first one ends the others.
 
     A worker that is told to end clears its files away. One whose first process was killed would wait for jobs for ever.
     """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGTERM, _end_at_once)
+    if hasattr(signal, "pthread_sigmask"):
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGTERM})
     signal.signal(signal.SIGTERM, _end)
     threading.Thread(target=_end_with_the_first, daemon=True).start()
+
+
+def _end_at_once(number: int, frame: FrameType | None) -> None:
+    """End a worker that has no files yet; an error here would be printed."""
+    os._exit(128 + number)
 
 
 def _end(number: int, frame: FrameType | None) -> None:
@@ -287,7 +311,7 @@ def _hand_over(
     """Hand groups over until there is no more room; the jobs of one that the pool does not take any more."""
     for group in islice(groups, max(0, pool.ahead() - len(under_way))):
         try:
-            under_way[executor.submit(_all, work, [job for _, job in group])] = group
+            under_way[_submitted(executor, work, [job for _, job in group])] = group
         except pool.died:
             return group
     return []
@@ -304,7 +328,7 @@ def _one_by_one(work: Callable[[Any], Any], jobs: _Group, pool: Pool) -> Iterato
         with pool.open(alone=True) as executor:
             for number, job in left:
                 try:
-                    (value,) = executor.submit(_all, work, [job]).result()
+                    (value,) = _submitted(executor, work, [job]).result()
                 except pool.died:
                     yield number, Lost()
                     break

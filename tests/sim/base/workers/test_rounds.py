@@ -6,11 +6,13 @@ import signal
 import subprocess
 import sys
 import time
+from functools import partial
 from pathlib import Path
 
 import pytest
 from places import ROOT
 
+from sim.base.workers import rounds
 from sim.base.workers.rounds import Lost, Processes, in_order, results
 
 needs_kill = pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="has no such signal")
@@ -121,3 +123,26 @@ def is_alive(process: int) -> bool:
             return False
         return True
     return state not in "ZX"
+
+
+def ready_late(mark: Path) -> None:
+    """As `_ready`, of all workers but the first one late."""
+    try:
+        mark.touch(exist_ok=False)
+    except FileExistsError:
+        time.sleep(0.4)
+    READY()
+
+
+READY = rounds._ready
+
+
+@needs_kill
+def test_a_worker_that_is_told_to_end_before_it_is_ready_ends(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(rounds, "_ready", partial(ready_late, tmp_path / "mark"))
+    handler = signal.signal(signal.SIGTERM, lambda number, frame: None)  # as one whose error nobody takes
+    try:
+        assert dict(results(dying_at_7, [(7, 7)], Processes(2))) == {7: Lost()}
+    finally:
+        signal.signal(signal.SIGTERM, handler)
+    assert multiprocessing.active_children() == []
