@@ -109,6 +109,7 @@ def test_a_program_in_3b_has_no_decoded_blocks() -> None:
     assert decoded(program, program.toolpath) == ()
 
 
+@pytest.mark.alike(20)
 @pytest.mark.parametrize("seed", range(60))
 def test_a_damaged_program_is_decoded_to_what_the_schema_allows(seed: int) -> None:
     rng = random.Random(seed)

@@ -41,7 +41,7 @@ def answer(page: "Page", at: int, *, line: bool = True, group: bool = True) -> N
     form.get_by_role("button").click()
 
 
-@pytest.mark.alike(1)
+@pytest.mark.deeper
 @pytest.mark.parametrize(("lang", "dark"), [("en", True), ("zh", False)])
 @pytest.mark.parametrize("html", [tasks, answers])
 def test_the_pages_offer_anyone_what_pages_must(open_page: OpenPage, html: "type", lang: str, dark: bool) -> None:

@@ -49,6 +49,7 @@ def waits_for(page: "Page", truth: str) -> None:
     page.wait_for_function(f"() => {truth}")
 
 
+@pytest.mark.deeper
 def test_the_replay_plays(page: "Page", tmp_path: Path) -> None:
     opened(page, replay_page(recording_of(LABELLED)), tmp_path)
     waits_for(page, "document.querySelector('#loading').hidden")

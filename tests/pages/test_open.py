@@ -68,7 +68,7 @@ def test_a_file_leads_the_browser_to_the_page(browsers: Browsers, tmp_path: Path
         shown.asked.remove(recorder.heard())
 
 
-@pytest.mark.alike(1)
+@pytest.mark.deeper
 @needs_axe
 @pytest.mark.parametrize("lang", ["en", "zh"])
 def test_axe_has_nothing_against_the_page(browsers: Browsers, keyhole: OpenedPage, lang: str) -> None:

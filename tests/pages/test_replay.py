@@ -403,6 +403,7 @@ def test_wheel_drag_and_two_fingers_move_the_view(open_page: OpenPage) -> None:
     assert wide == pytest.approx(2.0)
 
 
+@pytest.mark.deeper
 def test_a_turned_phone_shows_the_whole_path_unless_the_view_was_moved(open_page: OpenPage) -> None:
     def scale(width: int, height: int) -> float:
         page.set_viewport_size({"width": width, "height": height})
@@ -486,6 +487,7 @@ def test_a_piece_that_is_free_drops_and_leaves_a_hole(open_page: OpenPage, motio
     assert bool(between) == (motion == "no-preference")
 
 
+@pytest.mark.deeper
 def test_single_steps_show_their_decisions_and_no_text_covers_another(open_page: OpenPage) -> None:
     page = opened(open_page)
     page.evaluate("""() => {
@@ -622,6 +624,7 @@ def asked_of(page: "Page", panel: "Locator") -> list[str]:
     return questions
 
 
+@pytest.mark.deeper
 def test_a_number_gives_a_class_the_same_questions_and_a_score_to_take_along(open_page: OpenPage) -> None:
     page = opened(open_page, unasked_page())
     panel = begun(page, who="=1+1", number="17")

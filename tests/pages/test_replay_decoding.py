@@ -4,6 +4,7 @@ import functools
 from typing import TYPE_CHECKING
 
 import page_checks
+import pytest
 from browser import OpenPage
 from replayed import recording_of
 from runs import plain_scenario
@@ -66,6 +67,7 @@ def test_a_chinese_page_says_it_in_chinese(open_page: OpenPage) -> None:
     assert "刀补建立" in shown_at(page, 0)
 
 
+@pytest.mark.deeper
 def test_the_page_has_names_and_room_for_all_of_it(open_page: OpenPage) -> None:
     page = opened(open_page)
     shown_at(page, 0)

@@ -74,6 +74,7 @@ def test_stream_with_a_pause_ends_as_much_later(library: Made, tmp_path: Path) -
     assert 1000 <= took[1] - took[0] <= 1100
 
 
+@pytest.mark.deeper
 def test_origin_from_a_limit_with_cards_from_zero(library: Made, tmp_path: Path) -> None:
     ran = library.run(library.client("origin"), tmp_path, card=HOMES)
     assert ran.out.splitlines() == [

@@ -66,6 +66,7 @@ def test_a_loop_is_compiled_once_and_told_of_once(loops: Path) -> None:
     assert printed(loops, cache) == ["10.0"]
 
 
+@pytest.mark.deeper
 def test_a_loop_is_compiled_again_when_a_loop_that_it_calls_has_changed(loops: Path) -> None:
     cache = loops / "cache"
     printed(loops, cache)

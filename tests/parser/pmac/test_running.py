@@ -110,6 +110,7 @@ class Twice:
             self.put(indent, f"CALL{number}.01 X({x[0]}) F60", f"v['Q124'] = {x[1]}\n{'    ' * indent}sub({number})")
 
 
+@pytest.mark.alike(50)
 @pytest.mark.parametrize("seed", range(150))
 def test_random_programs_move_as_python_does(seed: int) -> None:
     twice = Twice(seed)

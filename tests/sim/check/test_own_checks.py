@@ -59,6 +59,7 @@ def drycut(shop: Path, *arguments: str) -> tuple[int, str, str]:
     return done.returncode, done.stdout.decode(), done.stderr.decode()
 
 
+@pytest.mark.deeper
 def test_its_findings_have_places_and_texts_in_both_languages(shop: Path) -> None:
     code, out, _ = drycut(shop, "check", "long.3b", "--format", "concise", "--fail-on", "warning")
     assert code == 1

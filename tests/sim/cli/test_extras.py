@@ -73,7 +73,7 @@ def test_the_core_needs_no_extra(shop: Path, code: int, arguments: tuple[str, ..
     assert (done[0], done[2].count("error:")) == (code, 0), done[2]
 
 
-@pytest.mark.alike(3)
+@pytest.mark.alike(1)
 @pytest.mark.parametrize(
     ("extra", "arguments"),
     [

@@ -81,7 +81,7 @@ def random_session(seed: int) -> tuple[Read, list[list[int]], int]:
     return read_again("card.log", session_of("card.log", text.splitlines(keepends=True))), card.places, sum(pulses)
 
 
-@pytest.mark.alike(10)
+@pytest.mark.alike(4)
 @pytest.mark.parametrize("seed", range(40))
 def test_the_axes_end_where_they_did(seed: int) -> None:
     found, places, _ = random_session(seed)

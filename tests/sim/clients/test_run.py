@@ -95,6 +95,7 @@ def made(library: Made, folder: Path, text: str) -> Path:
     return folder / "own"
 
 
+@pytest.mark.deeper
 def test_a_client_that_hangs_is_stopped_with_what_it_started(library: Made, tmp_path: Path) -> None:
     client = made(library, tmp_path, 'GT_Open(65535); GT_LnXY(500, 0); system("sleep 300 &"); for (;;) sts(1);')
     done, report = card_run(library, tmp_path, client, "--timeout", "1.5")

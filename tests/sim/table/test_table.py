@@ -147,6 +147,7 @@ def test_half_the_tick_changes_nothing() -> None:
     assert whole == pytest.approx(half[::2], abs=0.05)  # µm, at up to 9 mm/s
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize("axis", [0, 1])
 def test_at_each_reversal_the_table_stands_for_the_backlash_and_twice_the_hold_of_friction(axis: int) -> None:
     # Steps take much longer than they are apart, and the turn is so slow that no mass is felt.

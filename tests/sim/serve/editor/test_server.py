@@ -124,6 +124,7 @@ def test_findings_stand_at_their_words_and_their_mends_mend(tmp_path: Path) -> N
     session(work)
 
 
+@pytest.mark.deeper
 def test_an_editor_that_counts_in_utf_8_is_given_edits_of_the_version_that_it_has(tmp_path: Path) -> None:
     uri = (tmp_path / "part.3b").as_uri()
     text = "（第一条；去）B9900B0B9900GXL1\n（圆）B9900B0B39600GYNR1\n（第二条；回）B9900B0B9900GXL2\nDD\n"

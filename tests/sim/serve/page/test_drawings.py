@@ -166,6 +166,7 @@ def test_a_program_that_is_not_proved_says_so_at_its_head(drawing: Path, tmp_pat
     assert "：“支撑段 mm”填 3，" in todo["zh"]
 
 
+@pytest.mark.deeper
 def test_what_cannot_be_made_says_why(served: OpenedPage, dxf: bytes, drawing: Path, tmp_path: Path) -> None:
     state = draft(served, came(served, dxf), tab_mm="a lot")
     assert state["state"] == "wrong"
