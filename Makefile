@@ -23,7 +23,7 @@ suite: $(READY)
 	$(BIN)/pytest -m "not alone" --numprocesses auto --dist worksteal
 
 # The suite on each Python that the project supports and this machine has, in an environment of its own.
-lanes:
+lanes: scripts
 	@for version in 3.11 3.12 3.13 3.14; do \
 		if ! command -v python$$version >/dev/null; then echo "lane $$version: there is no python$$version"; continue; fi; \
 		echo "lane $$version"; \
