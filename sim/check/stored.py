@@ -62,7 +62,7 @@ def with_stored(
     for look in looks:
         result = look.result or next(fresh)
         if look.key and _is_silent(result):
-            passed[look.key] = _record(result)
+            passed[look.key] = record_of(result)
         yield result
     try:
         _write(folder, passed | {key: record for key, record in records.items() if key not in passed})
@@ -99,7 +99,7 @@ def _is_silent(result: CheckResult) -> bool:
     return not (result.findings or result.unreadable or result.fault)
 
 
-def _record(result: CheckResult) -> Record:
+def record_of(result: CheckResult) -> Record:
     """What is stored of a result that is silent; what its job says is left out."""
     return {
         "encoding": result.encoding,
@@ -115,7 +115,7 @@ def _record(result: CheckResult) -> Record:
 
 
 def _result(record: Record | None, job: Job) -> CheckResult | None:
-    """The result of a job from its record; None where there is none, or it is not as `_record` makes it."""
+    """The result of a job from its record; None where there is none, or it is not as `record_of` makes it."""
     if record is None:
         return None
     try:
@@ -134,7 +134,7 @@ def _result(record: Record | None, job: Job) -> CheckResult | None:
             assumptions=tuple(Assumption(*map(str, each)) for each in record["assumptions"]),
             programmed=_programmed(record["programmed"]),
         )
-    except (LookupError, TypeError, ValueError):
+    except (LookupError, TypeError, ValueError, OverflowError):
         return None
 
 
@@ -173,8 +173,8 @@ def _programmed(listed: Sequence[Any] | None) -> Programmed | None:
 def _read(file: Path) -> dict[str, Record]:
     """The records of a folder's file; none where it is not whole, or another drycut wrote it."""
     try:
-        seal, _, body = read_bytes(file).partition(b"\n")
-        if seal.decode() != _seal(body):
+        sealed, _, body = read_bytes(file).partition(b"\n")
+        if sealed.decode() != seal(body):
             return {}
         records = json.loads(body)
         return records if isinstance(records, dict) else {}
@@ -186,12 +186,12 @@ def _write(folder: Path, records: Mapping[str, Record]) -> None:
     """FileUnreadableError where it cannot be done."""
     body = json.dumps(dict(list(records.items())[:_MOST]), separators=(",", ":")).encode()
     ignore = {} if folder.exists() else {_IGNORE: b"*\n"}  # a folder of results is nobody's source
-    files = {STORED: _seal(body).encode() + b"\n" + body, **ignore}
+    files = {STORED: seal(body).encode() + b"\n" + body, **ignore}
     with staged(folder, list(files)) as stage:
         for name, data in files.items():
             (stage / name).write_bytes(data)
 
 
-def _seal(body: bytes) -> str:
+def seal(body: bytes) -> str:
     """Digest of the records and of what made them."""
     return hashlib.sha256(repr((_SCHEMA, made_by())).encode() + b"\n" + body).hexdigest()

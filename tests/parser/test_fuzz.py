@@ -37,6 +37,7 @@ INPUTS = {
         "dialect": 60,
         "trace": 100,
         "loop": 100,
+        "results": 30,
         "editor": 60,
         "card": 200,
         "dxf": 60,

@@ -1,4 +1,4 @@
-"""Targets `trace`, `loop` and `dialect`: files that drycut itself writes, and dialects of a shop's own."""
+"""Targets `trace`, `loop`, `results` and `dialect`: files that drycut itself writes, and dialects of a shop's own."""
 
 import hashlib
 import io
@@ -8,6 +8,7 @@ import random
 import zipfile
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -19,12 +20,35 @@ from fuzzing.setups import refused
 from fuzzing.target import Input, Judged
 from fuzzing.toml_trees import fuzzed_toml
 from parser.findings.errors import DrycutError
+from sim.check import stored
+from sim.check.file_check import Job, check_file
+from sim.check.files import STORED
+from sim.check.settings import CheckSettings
 from sim.jobs.trace_file import StoredTrace, read_trace
 
 _LOOP = MachineCode("loop", (Shape("array", "float64", 1, ()),), Shape("int64", "", 0, ()), b"\x7fELF" + b"\0" * 99)
 _DIALECTS = (
     b'extends = "fanuc"\noffset_letters = "DH"\n[g]\n145 = "switch"\n[rules]\nouter = "arc"\n[range]\nF = [0, 9999]\n',
     b'integer_um = 0.1\ncalls = ["program", "number"]\nmeant_twice = [78]\nmay_be_inch = true\n[m]\n188 = "stop"\n',
+)
+_SILENT = "B9900B0B9900GXL1\nB9900B0B9900GXL3\nDD\n"
+_FORMS = ("text", "json", "sarif")
+_ODD = (
+    None,
+    True,
+    -1,
+    10**400,
+    1e308,
+    float("nan"),
+    "",
+    "\x1b[31m\n\u2028",
+    "\ud800",
+    "加工",
+    [],
+    {},
+    [1, 2],
+    ["a"],
+    [[]],
 )
 _NAMES = ("extends", "letters", "rules", "g", "m", "range", "calls", "outer", "step_um", "distance", "angle", "name")
 _PROGRAM = "O0001\nG92 X0 Y0\nG90 G01 X5000 Y0\nG145 F9\nG02 X0 Y5000 I-5000 J0\nX0 Y0 M188\nM02\n"
@@ -76,6 +100,36 @@ def judge_loop(data: Input, _: int, folder: Path) -> Judged:
     return Judged(str(found is None), broken, "none" if found is None else "stored")
 
 
+def make_results(rng: random.Random) -> Input:
+    """The record of a result with values of other kinds in it, or damaged; ``sealed`` before it, or ``bare``."""
+    data = json.dumps(_odd(rng, _record())).encode()
+    if rng.random() < 0.3:
+        data = damaged(rng, data, (data,))
+    return rng.choice([b"sealed ", b"bare "]) + data
+
+
+def judge_results(data: Input, number: int, folder: Path) -> Judged:
+    """What is under no seal counts as none; what is may be anything, and the check has an answer."""
+    assert isinstance(data, bytes)
+    here, form = folder / str(number), _FORMS[number % len(_FORMS)]
+    here.mkdir()
+    (here / "part.3b").write_text(_SILENT, encoding="utf-8")
+    command = ("check", "part.3b", "--format", form)
+    plain = ran(command, here)
+    ran((*command, "--cache", "results"), here)
+    file = here / "results" / STORED
+    seal, _, body = file.read_bytes().partition(b"\n")
+    (key,) = json.loads(body)
+    how, _, record = data.partition(b" ")
+    body = b'{"%b":%b}' % (key.encode(), record)
+    file.write_bytes((stored.seal(body).encode() if how == b"sealed" else seal) + b"\n" + body)
+    done = ran((*command, "--cache", "results"), here)
+    broken = list(broken_by(done, here, form))
+    if how != b"sealed" and answer_of(done, here) != answer_of(plain, here):
+        broken.append("takes a result that is under no seal")
+    return Judged(answer_of(done, folder), broken, f"{how.decode(errors='replace')[:6]}, exit {done.returncode}")
+
+
 def make_dialect(rng: random.Random) -> Input:
     """A dialect of a shop's own."""
     return fuzzed_toml(rng, _DIALECTS, _NAMES)
@@ -90,6 +144,20 @@ def judge_dialect(data: Input, number: int, folder: Path) -> Judged:
     (here / "part.nc").write_text(_PROGRAM, encoding="utf-8")
     done = ran(("dialect", "test", "part.nc", "--dialect", "own.toml"), here)
     return Judged(answer_of(done, folder), list(broken_by(done, here)), f"exit {done.returncode}")
+
+
+def _record() -> Any:
+    silent = check_file(Job("part.3b", _SILENT.encode(), CheckSettings()))
+    return json.loads(json.dumps(stored.record_of(silent)))
+
+
+def _odd(rng: random.Random, tree: Any) -> Any:
+    """A tree of JSON with something else at some of its places."""
+    if rng.random() < 0.05:
+        return rng.choice(_ODD)
+    if isinstance(tree, dict):
+        return {name: _odd(rng, value) for name, value in tree.items() if rng.random() < 0.97}
+    return [_odd(rng, value) for value in tree] if isinstance(tree, list) else tree
 
 
 @cache

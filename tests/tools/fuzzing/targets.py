@@ -19,6 +19,7 @@ TARGETS = {
         Target("dialect", stores.make_dialect, stores.judge_dialect, 4.0),
         Target("trace", stores.make_trace, stores.judge_trace, 4.0),
         Target("loop", stores.make_loop, stores.judge_loop, 4.0),
+        Target("results", stores.make_results, stores.judge_results, 2.0),
         Target("editor", editors.make, editors.judge, 8.0),
         Target("card", card_logs.make, card_logs.judge, 25.0),
         Target("dxf", drawings.make, drawings.judge, 10.0, most_s=15.0),
