@@ -34,7 +34,7 @@ TEXTS_AND_FILES: Final = (
 )
 """Targets whose input is one text or file.
 
-Of a whole run too little is learnt in its time. Entries of the cache of loops are none: atheris sees the digest that
+Of a whole run too little is learnt in its time. Loops and stored results are none: atheris sees the digest that
 their seal is compared with, and writes it; a forged seal is no damage.
 """
 SEEDS: Final = 100
