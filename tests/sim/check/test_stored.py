@@ -193,6 +193,17 @@ class TestCommand:
         assert plain[0] == 1
         assert (shop / "results" / ".gitignore").read_text("ascii") == "*\n"
 
+    def test_what_a_baseline_knows_is_counted_as_before(self, shop: Path) -> None:
+        drycut("check", ".", "--write-baseline", "known.json", "--cache", "results", cwd=shop)
+        plain = drycut("check", ".", "--baseline", "known.json", cwd=shop)
+        for _ in range(2):
+            assert drycut("check", ".", "--baseline", "known.json", "--cache", "results", cwd=shop) == plain
+        (shop / "bad.3b").write_text(SOUND, "ascii")
+        mended = drycut("check", ".", "--baseline", "known.json", cwd=shop)
+        assert "no longer occur: 1" in mended[2]
+        for _ in range(2):
+            assert drycut("check", ".", "--baseline", "known.json", "--cache", "results", cwd=shop) == mended
+
     def test_a_fault_that_is_new_is_found(self, shop: Path) -> None:
         drycut("check", "good.3b", "--cache", "results", cwd=shop)
         state = (shop / "good.3b").stat()
