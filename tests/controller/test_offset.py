@@ -157,6 +157,7 @@ def test_neither_start_nor_sense_of_a_contour_matters() -> None:
         assert same_curves(wanted, flipped(reverse)), (seed, shape.name)
 
 
+@pytest.mark.deeper
 def test_agrees_with_an_offset_of_other_make() -> None:
     compared = 0
     for seed in range(500):

@@ -234,7 +234,7 @@ def test_every_wait_begins_where_its_row_ends(jerk: float) -> None:
         assert plan.at(plan.time_at(before)[wait > 0.0] + 0.125).speed_um_s.max(initial=0.0) == 0.0
 
 
-@pytest.mark.alike(1)
+@pytest.mark.deeper
 @pytest.mark.parametrize("loosened", [1.001, 1.02, 1.2])
 def test_under_a_jerk_limit_a_row_that_may_accelerate_more_makes_no_plan_slower(loosened: float) -> None:
     for seed in range(150):

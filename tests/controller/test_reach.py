@@ -103,7 +103,7 @@ def random_case(rng: random.Random) -> tuple[Shape, float, bool]:
     return shape, f, rng.random() < 0.7
 
 
-@pytest.mark.alike(1)
+@pytest.mark.deeper
 @pytest.mark.parametrize("seed", range(8))
 def test_the_loops_are_those_of_shapely_from_fine_chords(seed: int) -> None:
     rng = random.Random(seed)

@@ -176,6 +176,7 @@ def walked_one_by_one(program: list[PlainBlock]) -> list[tuple[int, int]]:
     return expected
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize("sense", ["L", "NR", "SR"])
 def test_every_small_block_steps_as_the_plain_walk(sense: str) -> None:
     """All directions, starts and axes up to 4 µm: roots of squares and of numbers beside them are among the radii."""

@@ -202,6 +202,7 @@ def test_a_shop_adopts_and_then_fails_on_what_is_new_alone(shop: Shop) -> None:
         assert (done.returncode, done.stdout.count("3B204")) == (1, 1), way
 
 
+@pytest.mark.deeper
 def test_make_leaves_the_mends_for_a_person(shop: Shop) -> None:
     shop.write("part.3b", WRONG_AXIS)
     assert shop.run("make mend").returncode == 0

@@ -57,7 +57,7 @@ def with_its_keys(page: "Page") -> None:
     page.keyboard.press("?")
 
 
-@pytest.mark.alike(3)
+@pytest.mark.alike(2)
 @needs_axe
 @pytest.mark.parametrize(("lang", "dark"), LOOKS)
 @pytest.mark.parametrize(

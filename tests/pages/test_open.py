@@ -180,6 +180,7 @@ def test_a_large_program_is_shown_and_stays_in_hand(browsers: Browsers, tmp_path
         shown.page.wait_for_function("() => Number(document.querySelector('#lines .now')?.textContent) > 27000")
 
 
+@pytest.mark.deeper
 def test_the_button_ends_it_and_an_ended_server_is_told(browsers: Browsers) -> None:
     with opened_page(KEYHOLE) as served, tab(browsers, served.address) as shown:
         shown.waits_for("pass")

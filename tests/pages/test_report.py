@@ -307,6 +307,7 @@ def sheets(pdf: bytes) -> list[tuple[int, int]]:
     return [(round(float(w) / 72 * 25.4), round(float(h) / 72 * 25.4)) for w, h in boxes]
 
 
+@pytest.mark.deeper
 def test_lines_that_the_languages_share_are_drawn_in_both(open_page: OpenPage, many: Made) -> None:
     page = shown(open_page, many.html, lang="zh")
     used = page.evaluate("""() => [...document.querySelectorAll('.picture [lang=zh-CN] use')].map(use => {

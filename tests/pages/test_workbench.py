@@ -157,7 +157,7 @@ def test_all_certain_mends_are_made_at_one_click_and_can_be_undone(browsers: Bro
         shown.page.wait_for_function("() => document.querySelector('#text').value.includes('39600GX')")
 
 
-@pytest.mark.alike(1)
+@pytest.mark.deeper
 @pytest.mark.parametrize(
     ("lang", "said"), [("en", "J counts the steps on one axis only"), ("zh", "J 只数一个轴的步数")]
 )

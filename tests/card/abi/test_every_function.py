@@ -67,6 +67,7 @@ def answered(card: GECard, one: Prototype, values: dict[str, Any]) -> str:
     return " ".join([one.name, str(int(code)), *(f"{part:.17g}" for part in flat)])
 
 
+@pytest.mark.alike(1)
 @pytest.mark.parametrize("arguments", ARGUMENTS)
 def test_each_answers_and_fills_as_in_python(library: Made, tmp_path: Path, arguments: str) -> None:
     values = ARGUMENTS[arguments]

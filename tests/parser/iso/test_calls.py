@@ -96,6 +96,7 @@ def read(text: str, dialect: str) -> Program:
     return parse_program(text, choices=Choices(dialect=dialect, unit="mm"))
 
 
+@pytest.mark.alike(2)
 @pytest.mark.deep
 @pytest.mark.parametrize("family", ["fanuc", "skd2", "sodick", "common"])
 def test_calls_run_what_their_family_calls(family: str) -> None:

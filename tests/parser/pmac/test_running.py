@@ -205,6 +205,7 @@ def test_the_program_that_the_text_starts_is_the_one_that_runs() -> None:
     assert [finding.values["number"] for finding in program.findings if finding.code == "PMC105"] == [1]
 
 
+@pytest.mark.alike(5)
 @pytest.mark.parametrize(
     ("body", "why"),
     [

@@ -49,7 +49,7 @@ def programs(rng: random.Random, number: int) -> list[Sound]:
     return [program for half in halves for program in half]
 
 
-@pytest.mark.alike(5)
+@pytest.mark.alike(3)
 @pytest.mark.deep
 @pytest.mark.parametrize("kind", AT_THE_BLOCK)
 def test_faults_of_every_kind_are_named_at_their_block(kind: str) -> None:

@@ -68,6 +68,7 @@ def test_a_test_prints_its_figures_and_parts() -> None:
     assert printed.endswith("verdict: pass\n")
 
 
+@pytest.mark.deeper
 def test_json_fits_its_schema_and_is_the_same_bytes_each_time() -> None:
     first, second = (run(*SMALL, "--feed", "60mm/min", "--json") for run in (run_command, run_inside))
     assert first.stdout == second.stdout

@@ -61,7 +61,7 @@ def test_folders_globs_and_files_are_each_checked_once(tmp_path: Path) -> None:
     assert json.loads(out)["verdict"] == "pass"
 
 
-@pytest.mark.alike(5)
+@pytest.mark.alike(3)
 @pytest.mark.parametrize(
     ("arguments", "complaint"),
     [

@@ -191,6 +191,7 @@ def test_bad_machine_files_are_named(short: Path, tmp_path: Path) -> None:
         assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.alike(2)
 @pytest.mark.parametrize(
     ("encoding", "run"), [("ascii", run_command), ("gbk", run_inside), ("ascii", run_inside), ("cp1252", run_inside)]
 )

@@ -37,7 +37,7 @@ def offered(words: str, number: int, **environment: str) -> list[str]:
     return done.stdout.decode().splitlines()
 
 
-@pytest.mark.alike(4)
+@pytest.mark.alike(1)
 @pytest.mark.parametrize(
     ("words", "number", "found"),
     [

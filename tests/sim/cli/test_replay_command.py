@@ -78,6 +78,7 @@ def test_the_same_film_is_the_same_bytes(part: Path, tmp_path: Path, suffix: str
     assert one.read_bytes() == other.read_bytes()
 
 
+@pytest.mark.deeper
 def test_theme_language_and_machine_change_the_film(part: Path, tmp_path: Path) -> None:
     shown = []
     for options in ((), ("--theme", "dark"), ("--lang", "zh"), ("--wire-diameter", "0.1mm")):
@@ -92,6 +93,7 @@ def test_a_failed_verdict_exits_1_with_its_film(tmp_path: Path) -> None:
     assert (tmp_path / "cut.gif").exists()
 
 
+@pytest.mark.deeper
 def test_only_the_file_goes_to_stdout_and_progress_to_stderr(part: Path, tmp_path: Path) -> None:
     done = run_command("replay", part, "-o", "cut.gif", *SHORT, cwd=tmp_path)
     assert (done.returncode, done.stdout) == (0, b"written: cut.gif\n")

@@ -54,7 +54,7 @@ def complaints(err: str) -> list[str]:
     return [line for line in err.splitlines() if not line.endswith("%")]
 
 
-@pytest.mark.alike(3)
+@pytest.mark.alike(1)
 @pytest.mark.parametrize(("command", "code"), QUICK + LONG + SILENT, ids=str)
 def test_a_verdict_is_told_whether_anyone_listens_or_not(drycut: Forked, command: list[str], code: int) -> None:
     for stdin, out, err in WAYS if (command, code) in QUICK else WAYS[:2]:

@@ -93,6 +93,7 @@ def test_the_axes_end_where_they_did(seed: int) -> None:
         assert way.plan.along_um[-1] == pytest.approx(way.curves.length_um.sum(), abs=1.0 + 0.5 * len(way.call))
 
 
+@pytest.mark.alike(2)
 @pytest.mark.parametrize("seed", [0, 3, 5, 8])
 def test_a_run_makes_the_pulses_of_the_card_and_its_table_follows(seed: int) -> None:
     found, places, count = random_session(seed)

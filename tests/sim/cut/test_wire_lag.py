@@ -83,7 +83,7 @@ def test_a_circle_shrinks_to_the_root_of_the_difference_of_squares(radius: float
     assert np.hypot(*wire[-1000:].T) == pytest.approx(math.sqrt(radius**2 - lag**2), abs=1e-5 * radius)
 
 
-@pytest.mark.alike(1)
+@pytest.mark.deeper
 @pytest.mark.parametrize(("radius", "lag"), [(30.0, 50.0), (30.0, 40.0)])
 def test_a_circle_smaller_than_the_lag_is_not_cut(radius: float, lag: float) -> None:
     turns = np.linspace(0.0, 100.0 * math.pi, 20_001)

@@ -31,6 +31,7 @@ def digests(folder: Path) -> dict[str, str]:
     return {path.name: hashlib.sha256(path.read_bytes()).hexdigest() for path in sorted(folder.iterdir())}
 
 
+@pytest.mark.deeper
 def test_trace_holds_every_step_from_the_start(tmp_path: Path) -> None:
     run = run_into(tmp_path / "out", parse_program(TEXT), plain_scenario(), silent, trace=True)
     trace = np.load(tmp_path / "out" / "trace.npz")

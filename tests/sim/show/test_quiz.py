@@ -368,6 +368,7 @@ def test_any_program_has_sets_of_questions_of_many_kinds(name: str) -> None:
     assert quiz == quiz_of(recording.run, recording.steps)
 
 
+@pytest.mark.alike(3)
 @pytest.mark.parametrize("name", PROGRAMS)
 def test_what_is_hidden_in_the_listing_holds_the_answer(name: str) -> None:
     recording = scenario_recording(name)

@@ -19,6 +19,7 @@ def test_each_example_has_a_title_in_both_languages(folder: Path) -> None:
     assert scenario.title_in("en") == scenario.title
 
 
+@pytest.mark.deeper
 def test_each_page_and_the_terminal_have_that_of_their_language(tmp_path: Path) -> None:
     (tmp_path / "a.3b").write_text("B3000B0B3000GXL1\nB5000B0B20000GYNR1\nB3000B0B3000GXL3\nDD\n", "ascii")
     (tmp_path / "scenario.toml").write_text('program = "a.3b"\ntitle = "Disc"\ntitle_zh = "圆片"\n', "utf-8")

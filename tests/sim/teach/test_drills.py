@@ -134,7 +134,7 @@ def test_a_program_with_little_to_damage_gives_the_few_drills_that_there_are() -
     assert len({drill.program.text for drill in made}) == len(made)
 
 
-@pytest.mark.alike(9)
+@pytest.mark.alike(4)
 @pytest.mark.parametrize("name", KINDS)
 def test_every_kind_of_fault_can_be_made(name: str) -> None:
     chance = random.Random(name)

@@ -87,6 +87,7 @@ def test_a_sharp_corner_that_would_cut_the_other_side_of_a_gap_stays_round() -> 
     assert way.is_arc.sum() == 1
 
 
+@pytest.mark.alike(15)
 @pytest.mark.parametrize("inside", [True, False])
 @pytest.mark.parametrize("seed", range(25))
 def test_a_contour_that_turns_one_way_is_offset_as_every_other_one(seed: int, inside: bool) -> None:

@@ -119,6 +119,7 @@ def test_a_file_is_a_drawing_by_its_name_or_its_first_lines() -> None:
         assert not is_drawing("part.3b", data)
 
 
+@pytest.mark.deeper
 def test_a_drawing_alone_lies_as_it_is_drawn(came_oddly: tuple[str, Any]) -> None:
     _, found = came_oddly
     assert extent(found["curves"]) == (30_000.0, 40_000.0, 50_000.0, 50_000.0)

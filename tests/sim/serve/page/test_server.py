@@ -117,6 +117,7 @@ def test_a_tab_may_go_to_the_page_from_elsewhere_and_nothing_else_may(
     assert served.ask(path, b"{}", method, **headers).status == status
 
 
+@pytest.mark.deeper
 def test_a_browser_is_led_to_the_page_by_a_file_that_only_its_owner_reads(tmp_path: Path) -> None:
     recorder = Recorder(tmp_path)
     with opened_page(None, browser=recorder.program) as served:
