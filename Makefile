@@ -19,10 +19,9 @@ test: browser scripts
 	@$(MAKE) --no-print-directory --jobs types style imports suite
 
 # Each process begins with a run of files, as their tests share what they make, and takes from the others when it is
-# done. There is one more of them than cores: tests of pages and servers wait for an eighth of the time.
+# done. `tests/conftest.py` says how many there are.
 suite: $(READY)
-	$(BIN)/pytest -m "not alone" --numprocesses $$(($$($(BIN)/python -c "import os; print(os.cpu_count())") + 1)) \
-		--dist worksteal
+	$(BIN)/pytest -m "not alone" --numprocesses auto --dist worksteal
 
 # The suite on each Python that the project supports and this machine has, in an environment of its own.
 lanes: scripts

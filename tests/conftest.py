@@ -1,6 +1,7 @@
 """Settings for all tests: the same examples on every run, and no deadline on one of them; browsers for pages."""
 
 import gc
+import os
 from collections.abc import Generator
 
 import pytest
@@ -35,6 +36,12 @@ def _more_of_a_kind(items: list[pytest.Item]) -> set[int]:
             cases.setdefault((item.nodeid.partition("[")[0], *mark.args), []).append(item)
     tried = {key: spread(key[1], len(alike)) for key, alike in cases.items()}
     return {id(item) for key, alike in cases.items() for at, item in enumerate(alike) if at not in tried[key]}
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_auto_num_workers() -> int:
+    """One process more than cores: tests of pages and servers wait for an eighth of the time."""
+    return (os.cpu_count() or 1) + 1
 
 
 def pytest_collection_finish() -> None:

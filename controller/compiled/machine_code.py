@@ -17,11 +17,9 @@ import ctypes
 import hashlib
 import json
 import os
-import signal
 import tempfile
 import threading
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from functools import cache
 from operator import index
 from pathlib import Path
@@ -31,6 +29,8 @@ import llvmlite
 import llvmlite.binding as llvm
 import numpy as np
 import platformdirs
+
+from controller.compiled.signals import signals_wait
 
 _NUMBERS: Final = {"float64": ctypes.c_double, "int64": ctypes.c_int64, "bool": ctypes.c_bool}
 _READ: Final[dict[str, Callable[[Any], Any]]] = {"float64": float, "int64": index, "bool": bool}
@@ -128,25 +128,15 @@ def _linker() -> Any:
 
 
 def _address(code: MachineCode) -> int:
-    """Where the function of machine code begins, once linked. RuntimeError where it cannot be."""
-    with _linking, _without_signals():
+    """Where the function of machine code begins, once linked. RuntimeError where it cannot be.
+
+    An interrupt while LLVM links code ends in a crash.
+    """
+    with _linking, signals_wait():
         library = llvm.JITLibraryBuilder().add_object_img(code.object_code).export_symbol(code.symbol)
         linked = library.add_current_process().link(_linker(), f"loop {len(_linked)}")
         _linked.append(linked)
         return int(linked[code.symbol])
-
-
-@contextmanager
-def _without_signals() -> Iterator[None]:
-    """Let signals wait: an interrupt while LLVM links code ends in a crash."""
-    if not hasattr(signal, "pthread_sigmask"):
-        yield
-        return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGTERM})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _parts(shape: Shape) -> Iterator[Any]:

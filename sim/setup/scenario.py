@@ -40,7 +40,7 @@ from sim.setup.part import (
     read_offset,
 )
 from sim.setup.quiz import QUIZ, Question, read_quiz
-from sim.setup.settable import INTERPOLATOR, KERF, OPEN, PAST_STOP
+from sim.setup.settable import INTERPOLATOR, KERF, MAY_STAY_OPEN, PAST_STOP
 from sim.setup.toml.keys import Key, Section, WrittenSection
 from sim.setup.toml.kinds import FileName, Name, Number, TablePlace, Text
 from sim.setup.toml.reader import Bound, load_toml, number, section
@@ -200,7 +200,7 @@ TOP = Section(
         *READ_WITH,
         INTERPOLATOR,
         Key("start_mm", TablePlace(), default=None),
-        OPEN,
+        MAY_STAY_OPEN,
         PAST_STOP,
         Key("trace_spacing_um", Number(TRACE_SPACING_UM, "µm"), default=DEFAULT_TRACE_SPACING_UM),
         KERF,

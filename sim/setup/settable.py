@@ -25,11 +25,11 @@ INTERPOLATOR: Final = Key(
 """In place of the machine's own, whatever else stands in its file."""
 PAST_STOP: Final = Key("past_stop", Truth(), default=False, option="--past-stop")
 KERF: Final = Key("kerf", Truth(), default=False, option="--kerf")
-OPEN: Final = Key("open", Truth(), "may_stay_open", default=False, option="--open")
+MAY_STAY_OPEN: Final = Key("open", Truth(), "may_stay_open", default=False, option="--open")
 
 
 def _settable() -> Iterator[tuple[str, Key]]:
-    for key in (PAST_STOP, KERF, OPEN):
+    for key in (PAST_STOP, KERF, MAY_STAY_OPEN):
         yield key.path, key
     for section in (WORK, WIRE):
         for key in section.keys:

@@ -31,6 +31,7 @@ from pathlib import Path
 from types import FrameType
 from typing import Any, Final, NamedTuple, Protocol, TypeVar
 
+from controller.compiled.signals import signals_come, signals_wait
 from parser import __version__
 from parser.findings.errors import ClusterError
 
@@ -186,16 +187,11 @@ def _submitted(executor: Executor, work: Callable[[Any], Any], jobs: list[Any]) 
     """Jobs handed over to a worker.
 
     The first ones start the workers. Told to end while it is forked, a worker would hear nothing: the handler of this
-    process raises where nobody takes it. From Python 3.12 on the executor tells them once, and waits. So the signal
-    waits until the worker is `_ready`.
+    process raises where nobody takes it. From Python 3.12 on the executor tells them once, and waits. So signals wait
+    until the worker is `_ready`.
     """
-    if not hasattr(signal, "pthread_sigmask"):
+    with signals_wait():
         return executor.submit(_all, work, jobs)
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGTERM})
-    try:
-        return executor.submit(_all, work, jobs)
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _ready() -> None:
@@ -205,8 +201,7 @@ def _ready() -> None:
     """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, _end_at_once)
-    if hasattr(signal, "pthread_sigmask"):
-        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGTERM})
+    signals_come()
     signal.signal(signal.SIGTERM, _end)
     threading.Thread(target=_end_with_the_first, daemon=True).start()
 

@@ -29,7 +29,7 @@ from sim.show.draw.chart import NOMINAL, RING, RINGS
 from sim.show.draw.layout import Box
 from sim.show.draw.sheet import drawing, pixels
 from sim.show.draw.style import DARK, LIGHT, Paint
-from sim.show.pictures.deviation import worst
+from sim.show.pictures.deviation import insets
 from sim.show.pictures.deviation.along import (
     bins_of,
     draw_along,
@@ -38,9 +38,10 @@ from sim.show.pictures.deviation.along import (
     shares,
 )
 from sim.show.pictures.deviation.frame import Samples, samples_of
+from sim.show.pictures.deviation.insets import STEPS, draw_inset, inset_of
 from sim.show.pictures.deviation.polar import circles_of, draw_polar
 from sim.show.pictures.deviation.whiskers import APART, draw_whiskers
-from sim.show.pictures.deviation.worst import APART_UM, STEPS, draw_inset, draw_worst, inset_of, worst_of, worst_places
+from sim.show.pictures.deviation.worst import APART_UM, draw_worst, worst_of, worst_places
 from sim.table.trace import Trace
 
 SQUARE = "B900 B0 B900 GX L1 B0 B700 B700 GY L2 B900 B0 B900 GX L3 B0 B700 B700 GY L4 DD"
@@ -449,9 +450,9 @@ def plain_places(blocks: list[PlainBlock]) -> list[tuple[int, int]]:
     return places
 
 
-@pytest.mark.parametrize("most", [worst.STEPS, 8])
+@pytest.mark.parametrize("most", [insets.STEPS, 8])
 def test_staircase_is_that_of_the_plain_interpolator(monkeypatch: pytest.MonkeyPatch, most: int) -> None:
-    monkeypatch.setattr(worst, "STEPS", most)
+    monkeypatch.setattr(insets, "STEPS", most)
     text = "\n".join(block.text() for block in BLOCKS) + "\nDD"
     of, steps = samples(text), recording(text).steps
     plain = plain_places(BLOCKS)
