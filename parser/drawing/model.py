@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from parser.findings.catalogue import Remark
 from parser.geometry.curves import CurveKind, Curves, Ints
+from parser.units import UM_PER_MM
 
 DEFAULT_GAP_UM = 10.0
 """Ends of a drawing this near are joined: more than the rounding of any CAD, less than what anyone draws (assumed)."""
@@ -17,6 +18,36 @@ BESIDE_UM = 1.0
 """Curves that run this near beside each other are one drawn twice: a step of a machine, less than any wall is thick."""
 DEFAULT_FLATTEN_UM = 0.1
 """How far lines lie off ellipses and splines at most: little beside the 5 µm that a cut is usually held to."""
+
+
+class Unit(NamedTuple):
+    """A unit of length by its name, and µm in one of it."""
+
+    name: str
+    um: float
+
+    @property
+    def word(self) -> str:
+        """The name as settings have it, in letters that every keyboard has."""
+        return "micron" if self.name == "µm" else self.name
+
+
+_INCH_UM = 25.4 * UM_PER_MM
+# Codes as the DXF reference gives them for $INSUNITS.
+UNITS = {
+    1: Unit("inch", _INCH_UM),
+    2: Unit("foot", 12.0 * _INCH_UM),
+    4: Unit("mm", UM_PER_MM),
+    5: Unit("cm", 10.0 * UM_PER_MM),
+    6: Unit("m", 1000.0 * UM_PER_MM),
+    8: Unit("microinch", _INCH_UM / 1e6),
+    9: Unit("mil", _INCH_UM / 1e3),
+    10: Unit("yard", 3.0 * 12.0 * _INCH_UM),
+    12: Unit("nm", 1e-3),
+    13: Unit("µm", 1.0),
+    14: Unit("dm", 100.0 * UM_PER_MM),
+}
+"""Units of drawings, by their codes in a file."""
 
 
 class Entity(NamedTuple):
@@ -58,6 +89,8 @@ class LeftOut(NamedTuple):
         How far the nearest loose end of another curve lies from an end of an open one; None where none is near.
     detail
         What is wrong with it, where that is known.
+    values
+        What fills the text.
     """
 
     entity: Entity
@@ -65,6 +98,7 @@ class LeftOut(NamedTuple):
     place_um: tuple[float, float] | None = None
     gap_um: float | None = None
     detail: Remark | None = None
+    values: tuple[tuple[str, str], ...] = ()
 
 
 class Mark(NamedTuple):

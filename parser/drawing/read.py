@@ -31,13 +31,23 @@ from parser.drawing.gather import Gathered, Missed, gather
 from parser.drawing.loops.chain import Chained, chain, without_flat
 from parser.drawing.loops.joints import welded
 from parser.drawing.loops.once import Again, drawn_once
-from parser.drawing.model import DEFAULT_FLATTEN_UM, DEFAULT_GAP_UM, Drawing, Entity, FitFigures, LeftOut, Mark
+from parser.drawing.model import (
+    DEFAULT_FLATTEN_UM,
+    DEFAULT_GAP_UM,
+    UNITS,
+    Drawing,
+    Entity,
+    FitFigures,
+    LeftOut,
+    Mark,
+    Unit,
+)
 from parser.drawing.plane import FARTHEST_UM
 from parser.findings.catalogue import LANGUAGES, Bilingual, Remark, remark_text
 from parser.findings.errors import DrawingError, Message
-from parser.geometry.curves import Floats
+from parser.geometry.curves import Curves, Floats, extents
 from parser.text.encoding import printable
-from parser.units import UM_PER_MM, mm
+from parser.units import mm
 
 NEVER_PLOTTED = "defpoints"
 """The layer, in small letters, on which CADs put the points that dimensions hang on, and people what helps to draw."""
@@ -226,9 +236,6 @@ def _marks(found: Sequence[Placed], centers: Floats, radii: Floats, maps: Floats
     return tuple(Mark((x, y), printable(found[row].layer), r_um) for (x, y, _), r_um, row in columns)
 
 
-_INCH_MM = 25.4
-
-
 class _ReadWith(NamedTuple):
     """What a drawing is read with; see `read_drawing`."""
 
@@ -236,14 +243,16 @@ class _ReadWith(NamedTuple):
     gap_um: float
     flatten_um: float
     fit_um: float | None
+    unit: Unit | None
 
 
-def read_drawing(
+def read_drawing(  # noqa: PLR0913, PLR0917 - all that can be asked of a drawing
     path: Path | str,
     layer: str | None = None,
     gap_um: float = DEFAULT_GAP_UM,
     flatten_um: float = DEFAULT_FLATTEN_UM,
     fit_um: float | None = None,
+    unit: str | None = None,
 ) -> Drawing:
     """The drawing of a DXF file, ASCII or binary, of any release.
 
@@ -260,15 +269,18 @@ def read_drawing(
     fit_um
         How far arcs may lie off the ellipses, splines and dense polylines that they are fitted to; None where no arcs
         are fitted.
+    unit
+        The unit that it is drawn in, by its word in `UNITS`; None for the one that the file names.
 
     Raises FileUnreadableError where there is no readable file; DrawingError where it is no DXF, is damaged beyond
     mending, has no such layer, or holds no curve.
     """
     path = Path(path)
+    own = next((each for each in UNITS.values() if each.word == unit), None)
     document, notes = read_document(path)
     try:
         with np.errstate(all="ignore"):  # damaged numbers overflow; what comes of them is left out by its value
-            return _drawing(path.name, document, _ReadWith(layer, gap_um, flatten_um, fit_um), notes)
+            return _drawing(path.name, document, _ReadWith(layer, gap_um, flatten_um, fit_um, own), notes)
     except DrawingError as error:
         raise DrawingError("in-file", file=path, message=error.message) from None
     except Exception as error:  # what no part of the reader foresaw in a damaged file
@@ -276,7 +288,8 @@ def read_drawing(
 
 
 def _drawing(name: str, document: Document, read_with: _ReadWith, notes: list[Remark]) -> Drawing:
-    unit, assumed = unit_of(document.header.get("$INSUNITS", None))
+    named, assumed = unit_of(document.header.get("$INSUNITS", None))
+    unit = read_with.unit or named
     placed = list(placed_entities(document, scaled(unit.um)))
     _refuse_unknown(document, placed, read_with.layer)
     wanted = wanted_of(document, placed, read_with.layer)
@@ -284,6 +297,8 @@ def _drawing(name: str, document: Document, read_with: _ReadWith, notes: list[Re
     left = tuple(left_out(wanted, gathered.counts.missed))
     if not len(gathered.curves):
         raise no_contour(left, read_with.layer)
+    doubt = unit_doubt(unit, gathered.curves, document.header.get("$MEASUREMENT", None))
+    of_unit = [] if read_with.unit else [each for each in (assumed, doubt) if each]
     once = drawn_once(gathered.curves, gathered.entity)
     chained = chain(once.curves, np.unique(once.entity, return_inverse=True)[1], read_with.gap_um)
     contours = without_flat(once.curves, once.entity, chained.loops)
@@ -299,7 +314,7 @@ def _drawing(name: str, document: Document, read_with: _ReadWith, notes: list[Re
         loops=contours.loops,
         flattened=gathered.counts.flattened,
         flatten_um=read_with.flatten_um,
-        notes=(*notes, *([assumed] if assumed else []), *notes_of([*left, *flat], gathered, once.again, chained)),
+        notes=(*notes, *of_unit, *notes_of([*left, *flat], gathered, once.again, chained)),
         left_out=(*left, *(_again(wanted.placed, again) for again in once.again), *flat),
         marks=marks_of(placed),
     )
@@ -326,32 +341,31 @@ def _again(wanted: Sequence[Placed], again: Again) -> LeftOut:
     return LeftOut(entity_of(wanted[again.entity]), "drawn-twice" if again.whole else "overlaps", again.place_um)
 
 
-class Unit(NamedTuple):
-    """A unit of length by its name, and µm in one of it."""
-
-    name: str
-    um: float
-
-
-# Codes as the DXF reference gives them for $INSUNITS.
-_UNITS = {
-    1: Unit("inch", _INCH_MM * UM_PER_MM),
-    2: Unit("foot", 12.0 * _INCH_MM * UM_PER_MM),
-    4: Unit("mm", UM_PER_MM),
-    5: Unit("cm", 10.0 * UM_PER_MM),
-    6: Unit("m", 1000.0 * UM_PER_MM),
-    8: Unit("microinch", _INCH_MM * UM_PER_MM / 1e6),
-    9: Unit("mil", _INCH_MM * UM_PER_MM / 1e3),
-    10: Unit("yard", 36.0 * _INCH_MM * UM_PER_MM),
-    12: Unit("nm", 1e-3),
-    13: Unit("µm", 1.0),
-    14: Unit("dm", 100.0 * UM_PER_MM),
-}
-
-
 def unit_of(code: object) -> tuple[Unit, Remark | None]:
     """The unit that $INSUNITS names, mm where it names none; with a note on what was assumed."""
-    if isinstance(code, int) and code in _UNITS:
-        return _UNITS[code], None
+    if isinstance(code, int) and code in UNITS:
+        return UNITS[code], None
     assumed = Remark("no-unit") if code in (None, 0) else Remark("strange-unit", {"code": printable(str(code))})
-    return _UNITS[4], assumed
+    return UNITS[4], assumed
+
+
+_LEAST_PART_UM, _MOST_PART_UM = 500.0, 2e6
+"""No part is smaller than a start hole's half, none larger than the tables of wire EDM: 2 m (assumed)."""
+_ENGLISH = ("inch", "foot", "yard", "mil", "microinch")
+_LIKELY = tuple(UNITS[code] for code in (4, 1, 13, 6))  # in which a drawing may be meant, the likeliest first
+
+
+def unit_doubt(unit: Unit, curves: Curves, measurement: object) -> Remark | None:
+    """What speaks against the unit that a file names, or that was taken for it, and what it may be instead.
+
+    Its drawing would be of a size that no part has, and in another unit it would not; or the file is drawn in inches
+    and says that it is metric ($MEASUREMENT 1).
+    """
+    low, high = extents(curves)
+    size_um = float((high.max(axis=0) - low.min(axis=0)).max())
+    likely = [each for each in _LIKELY if _LEAST_PART_UM <= size_um / unit.um * each.um <= _MOST_PART_UM]
+    is_odd = not _LEAST_PART_UM <= size_um <= _MOST_PART_UM
+    if not likely or not (is_odd or (unit.name in _ENGLISH and measurement == 1)):
+        return None
+    sizes = {"size": mm(size_um), "other_size": mm(size_um / unit.um * likely[0].um)}
+    return Remark("doubtful-unit", {"unit": unit.name, "other": likely[0].name, **sizes})

@@ -70,7 +70,7 @@ def compare(  # noqa: PLR0913 - click hands over each option by its name
         raise click.MissingParameter(param_hint="DRAWING.dxf", param_type="argument")
     program = _program(scenario)
     offset_um, source = _offset(given.plain, program, scenario)
-    drawn = read_drawing(target.file, layer=target.layer, gap_um=target.gap_um)
+    drawn = read_drawing(target.file, layer=target.layer, gap_um=target.gap_um, unit=target.unit)
     request = FitRequest(target.tolerance_um, target.fit, target.sharp_corners)
     done = compare_program(program.toolpath, offset_um, drawn, request)
     if as_json:

@@ -13,6 +13,7 @@ import click
 
 from parser.findings.errors import Message, SettingsError
 from sim.cli.spoken.values import WholeNumber
+from sim.setup.picks import Picks, pick_of
 from sim.setup.toml.keys import Key
 from sim.setup.toml.kinds import Lengths as OfLengths
 from sim.setup.toml.kinds import Name, Number, OneOf, Places, Text, Truth, ValueKind, Whole, Wholes
@@ -93,6 +94,16 @@ class Numbers(click.ParamType):  # type: ignore[type-arg]  # generic in newer cl
         return numbers
 
 
+class Picked(click.ParamType):  # type: ignore[type-arg]  # generic in newer clicks alone
+    """What is picked of a drawing."""
+
+    name = "WHAT"
+
+    def convert(self, value: Any, param: click.Parameter | None, _ctx: click.Context | None) -> Any:
+        """The pick. SettingsError for what picks nothing."""
+        return pick_of(value, param.opts[0] if param else self.name) if isinstance(value, str) else value
+
+
 def length_um(text: str) -> float:
     """A length with its unit, or a number in mm, in µm."""
     from sim.base.units import parse_length
@@ -121,6 +132,7 @@ _TAKING: Final[Mapping[type[ValueKind], dict[str, Any]]] = {
     OfLengths: {"type": Length(), "multiple": True},
     Places: {"type": Place(), "multiple": True},
     Wholes: {"type": Numbers()},
+    Picks: {"type": Picked(), "multiple": True},
     Name: {"metavar": "WORD"},
     Text: {"metavar": "NAME"},
 }

@@ -11,7 +11,7 @@ from parser.findings.errors import Message
 from sim.cli.options import WRITTEN_IN, Length, length_um, setting_options, taken_settings, with_options
 from sim.cli.spoken.values import offer_machines
 from sim.setup.making import PROGRAM, SIDE_WISHES, Language
-from sim.setup.part import GAP, LAYER, THICKNESS, TOLERANCE
+from sim.setup.part import GAP, LAYER, THICKNESS, TOLERANCE, UNIT
 from sim.setup.toml.keys import Key
 from sim.setup.wire import DIAMETER, SPARK_GAP
 
@@ -50,7 +50,7 @@ def _is_rank(text: str | None) -> bool:
 
 OF_PROOF: Final = (THICKNESS, DIAMETER, replace(SPARK_GAP, option="--spark-gap"))
 """Settings of the run that proves a program; ``--gap`` is the gap in a drawing here."""
-OF_DRAWING: Final = (LAYER, replace(TOLERANCE, name="part_tolerance_um", option="--part-tolerance"), GAP)
+OF_DRAWING: Final = (LAYER, UNIT, replace(TOLERANCE, name="part_tolerance_um", option="--part-tolerance"), GAP)
 """How the drawing is read, and how far the part may be off it; ``--tolerance`` is that of the path."""
 _OF_MAKING: Final = tuple(key for key in PROGRAM.keys if key.path.startswith("making."))
 _OF_WRITING: Final = tuple(key for key in PROGRAM.keys if key.path.startswith("writing."))

@@ -60,7 +60,7 @@ def drawing_of(target: DrawingTarget | None) -> Drawing | None:
         return None
     from parser.drawing.read import read_drawing  # noqa: PLC0415 - most runs have no drawing, and ezdxf loads for 0.3 s
 
-    return read_drawing(target.file, layer=target.layer, gap_um=target.gap_um)
+    return read_drawing(target.file, layer=target.layer, gap_um=target.gap_um, unit=target.unit)
 
 
 def left_of(  # noqa: PLR0913, PLR0917 - all that is known of the cut, and whom it tells

@@ -14,6 +14,7 @@ from parser.findings.errors import Message, SettingsError
 from parser.toolpath import Point
 from parser.units import mm
 from sim.setup.part import GAP_UM, OFFSET_MM, PASSES, TOLERANCE_UM, DrawingTarget
+from sim.setup.picks import Pick, Picks
 from sim.setup.toml.keys import Key, Section
 from sim.setup.toml.kinds import MM_AS_UM, FileName, Lengths, Name, Number, OneOf, Places, Text, Truth, Whole, Wholes
 from sim.setup.toml.reader import PLACE_MM, Bound, number, tables
@@ -77,6 +78,10 @@ class Making(NamedTuple):
         adds, 8 µm.
     layer
         The one layer whose contours are cut; all that are seen where None.
+    unit
+        The unit that it is drawn in; the one that the file names where None.
+    picks
+        What of the contours is cut; all of them where empty.
     gap_um
         Ends of the drawing that are no farther apart are joined.
     passes_um
@@ -110,6 +115,8 @@ class Making(NamedTuple):
     tolerance_um: float = DEFAULT_FIT_UM
     part_tolerance_um: float | None = None
     layer: str | None = None
+    unit: str | None = None
+    picks: tuple[Pick, ...] = ()
     gap_um: float = 10.0
     passes_um: tuple[float, ...] = ()
     returning: Returning = "back"
@@ -202,6 +209,7 @@ PROGRAM = Section(
             default=_USUAL.tolerance_um,
             option="--tolerance",
         ),
+        Key("pick", Picks(), "making.picks", default=(), option="--pick"),
         Key("passes_mm", Lengths(OR_NONE_MM), "making.passes_um", default=(), option="--pass"),
         Key("returning", OneOf(RETURNINGS), "making.returning", default=_USUAL.returning),
         Key("side", OneOf(SIDE_WISHES), "making.side", default=_USUAL.side, option="--side"),
@@ -267,8 +275,10 @@ def read_to_make(scenario: Mapping[str, Any], where: str, drawing: DrawingTarget
 
 
 def of_drawing(making: Making, drawing: DrawingTarget) -> Making:
-    """What is asked, with layer, gap and tolerance of the part that a drawing is held to."""
-    return making._replace(layer=drawing.layer, gap_um=drawing.gap_um, part_tolerance_um=drawing.tolerance_um)
+    """What is asked, with layer, unit, gap and tolerance of the part that a drawing is held to."""
+    return making._replace(
+        layer=drawing.layer, unit=drawing.unit, gap_um=drawing.gap_um, part_tolerance_um=drawing.tolerance_um
+    )
 
 
 def refuse_odd(making: Making, where: str) -> None:

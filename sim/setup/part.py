@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, Final, Literal, NamedTuple, get_args
 
 from controller.offset.shifted import Side
-from parser.drawing.model import DEFAULT_GAP_UM
+from parser.drawing.model import DEFAULT_GAP_UM, UNITS
 from parser.findings.errors import Message, SettingsError
 from parser.text.encoding import printable
 from sim.setup.obstacles import OutlineMm
@@ -25,6 +25,7 @@ FEED_MM_MIN = Bound(0.001, 1e4)
 TOLERANCE_UM = Bound(0.001, 1e6)
 GAP_UM = Bound(0.001, 1e4)
 
+DRAWING_UNITS = tuple(unit.word for unit in UNITS.values())
 SIDES: Mapping[str, Side] = {side.name.lower(): side for side in Side}
 SharpCorners = Literal["tell", "fail"]
 """What a sharp inside corner of the drawing does, which no wire can cut: it is told apart, or it fails as drawn."""
@@ -102,6 +103,8 @@ class DrawingTarget(NamedTuple):
         A DXF file.
     layer
         Layer of the contour; all where None.
+    unit
+        Unit that it is drawn in; the one that the file names where None.
     tolerance_um
         Distance that edge and drawing may be apart.
     gap_um
@@ -118,6 +121,7 @@ class DrawingTarget(NamedTuple):
     gap_um: float = DEFAULT_GAP_UM
     fit: bool = True
     sharp_corners: SharpCorners = "tell"
+    unit: str | None = None
 
 
 class _SideWord(OneOf):
@@ -165,6 +169,7 @@ GAP = Key("gap_um", Number(GAP_UM, "µm"), default=DEFAULT_GAP_UM, option="--gap
 LAYER = Key(
     "layer", Text(), default=None, get=lambda drawing: drawing.layer and printable(drawing.layer), option="--layer"
 )
+UNIT = Key("unit", OneOf(DRAWING_UNITS), default=None, option="--drawing-unit")
 FIT = Key("fit", Truth(), default=True, option="--no-fit")
 CORNERS = Key("sharp_corners", OneOf(SHARP_CORNERS), default="tell", option="--sharp-corners")
 DRAWING = Section(
@@ -172,6 +177,7 @@ DRAWING = Section(
     (
         Key("file", FileName()),
         LAYER,
+        UNIT,
         TOLERANCE,
         GAP,
         FIT,

@@ -215,10 +215,39 @@ def test_every_version_gives_the_same_curves(tmp_path, version, fmt):
 )
 def test_lengths_are_in_the_unit_of_the_file(tmp_path, code, name, um):
     document = new(units=code)
-    document.modelspace().add_line((0, 0), (3, 4))
+    length = min(5.0, 1e6 / um)  # no part is longer than 2 m
+    document.modelspace().add_line((0, 0), (0.6 * length, 0.8 * length))
     drawing = read_drawing(saved(document, tmp_path))
-    assert (drawing.unit, drawing.notes) == (name, ())
-    assert drawing.curves.length_um[0] == pytest.approx(5 * um, rel=1e-12)
+    assert [note.name for note in drawing.notes] == (["doubtful-unit"] if um < 100.0 else [])  # 0.1 mm: no part either
+    assert drawing.unit == name
+    assert drawing.curves.length_um[0] == pytest.approx(length * um, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("code", "measurement", "length", "other"),
+    [
+        (1, 1, 5.0, ("mm", 5.0)),  # 127 mm in inches, of a file that says it is metric
+        (1, 0, 5.0, None),
+        (4, 1, 5.0, None),
+        (4, 0, 5.0, None),
+        (6, 1, 100.0, ("mm", 100.0)),  # 100 m
+        (4, 1, 0.2, ("inch", 5.08)),
+        (4, 1, 2500.0, ("µm", 2.5)),
+        (4, 1, 9e6, None),  # in no unit a part
+        (0, 1, 5.0, None),
+        (0, 1, 0.2, ("inch", 5.08)),
+    ],
+)
+def test_a_unit_that_makes_no_part_is_to_be_checked(tmp_path, code, measurement, length, other):
+    document = new()
+    document.header["$INSUNITS"], document.header["$MEASUREMENT"] = code, measurement
+    document.modelspace().add_line((0, 0), (length, 0))
+    path = saved(document, tmp_path)
+    found = [note.values for note in read_drawing(path).notes if note.name == "doubtful-unit"]
+    assert [(each["other"], pytest.approx(each["other_size"])) for each in found] == ([other] if other else [])
+    if length < 1e4:
+        asked = read_drawing(path, unit="inch")
+        assert (asked.unit, asked.notes, asked.curves.length_um[0]) == ("inch", (), pytest.approx(25_400.0 * length))
 
 
 def test_a_file_that_names_no_unit_is_in_mm(tmp_path):
@@ -227,8 +256,8 @@ def test_a_file_that_names_no_unit_is_in_mm(tmp_path):
     path.write_text("0\nSECTION\n2\nENTITIES\n0\nCIRCLE\n8\n0\n10\n0\n20\n0\n40\n10\n0\nENDSEC\n0\nEOF\n", "ascii")
     drawing = read_drawing(path)
     assert (drawing.unit, drawing.curves.radius_um.tolist()) == ("mm", [10_000.0])
-    assert notes(drawing) == ["the file names no unit; taken as mm"]
-    assert notes(drawing, "zh") == ["文件没有给出单位；按 mm 处理"]
+    assert notes(drawing) == ["the file names no unit; taken as mm (--drawing-unit sets another one)"]
+    assert notes(drawing, "zh") == ["文件没有给出单位；按 mm 处理（可用 --drawing-unit 指定）"]
 
 
 @pytest.mark.parametrize("version", ["R12", "R2000", "R2018"])

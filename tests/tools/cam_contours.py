@@ -6,6 +6,7 @@ import random
 import numpy as np
 import shapely
 
+from parser.drawing.model import Entity
 from parser.geometry.curves import Curves, Floats, curves_between
 from sim.make.cam.model import Figure
 
@@ -32,7 +33,9 @@ def circle(radius_um: float) -> Curves:
 
 def figure(closed: Curves, *, inside: bool, number: int = 1) -> Figure:
     rows = np.zeros(len(closed), dtype=np.int64)
-    return Figure(number, "hole" if inside else "outline", 1, int(inside), closed, rows, "0", inside)
+    return Figure(
+        number, "hole" if inside else "outline", 1, int(inside), closed, rows, Entity("LINE", "1", "0", ""), inside
+    )
 
 
 def star(rng: random.Random, count: int, arcs: bool) -> Curves:

@@ -164,7 +164,10 @@ def walls(figures: Sequence[Figure], offset_um: Sequence[float], reach_um: float
             ("apart_mm", f"{mm(float(close.apart_um[worst])):.4g}"),
             ("kerf_mm", f"{mm(float(across[worst])):.4g}"),
         )
-        raise CannotCutError(Refusal("too-near", tuple(Point(x, y) for x, y in close.place_um[bad].tolist()), values))
+        near = np.unique(np.append(close.this[bad], close.other[bad]))
+        numbers = tuple(figures[at].number for at in near.tolist())
+        places_um = tuple(Point(x, y) for x, y in close.place_um[bad].tolist())
+        raise CannotCutError(Refusal("too-near", places_um, values, numbers))
     touch = close.apart_um[thin] <= BESIDE_UM
     named = ("contours-touch", thin[touch]), ("thin-walls", thin[~touch])
     return tuple(_contact_remark(name, close, which) for name, which in named if len(which))

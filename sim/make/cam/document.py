@@ -5,6 +5,7 @@ What each figure of a made program comes to: blocks, length and time, and the ti
 
 import json
 import math
+from collections.abc import Iterator
 from typing import NamedTuple, Protocol
 
 import numpy as np
@@ -15,23 +16,27 @@ from parser.findings.catalogue import Language, Remark, remark_text, texts
 from parser.findings.findings import Finding
 from parser.shape.contours import runs
 from parser.toolpath import Toolpath
+from parser.units import mm
 from sim.base.units import known, place, rounded
 from sim.make.cam.document_model import (
+    BridgedEntry,
     DrawingFileEntry,
     EntityEntry,
     FigureEntry,
     FindingEntry,
     FitEntry,
+    LeftEntry,
     LeftOutEntry,
     PassEntry,
     PiecesEntry,
     ProgramDocument,
     ProofEntry,
     RefusalEntry,
+    TakenEntry,
     WireEntry,
 )
 from sim.make.cam.maker import MadeProgram, NotMade
-from sim.make.cam.model import CutPlan, FigureCut, PassCut, Refusal
+from sim.make.cam.model import CutPlan, Figure, FigureCut, PassCut, Refusal
 from sim.make.cam.target import Fault, Proof
 from sim.run.dryrun import DryRun
 from sim.setup.wire import Wire
@@ -115,6 +120,9 @@ def document(made: MadeProgram | NotMade, say: Say) -> ProgramDocument:
         "drawing": None if plan is None else _drawing(plan),
         "fit": None if plan is None or plan.drawing.fit is None else _fit(plan.drawing.fit, plan.making.tolerance_um),
         "figures": [] if done is None else [*map(_figure, done.plan.cuts, figure_sums(done))],
+        "taken": [] if plan is None else [_taken_entry(cut.figure, plan) for cut in plan.cuts],
+        "left": [] if plan is None else [*map(_left_entry, plan.uncut_entities)],
+        "bridged": [] if plan is None else [*_bridged(plan)],
         "left_out": [] if plan is None else [_left_out(each, say) for each in plan.left_out],
         "length_um": None if done is None else rounded(float(done.program.toolpath.length_um.sum())),
         "time_s": None if run is None else rounded(run.ran_s),
@@ -176,11 +184,33 @@ def _direction(*, is_ccw: bool) -> str:
     return "ccw" if is_ccw else "cw"
 
 
+def _taken_entry(figure: Figure, plan: CutPlan) -> TakenEntry:
+    numbers = np.unique(figure.entity).tolist()
+    return {"figure": figure.number, "entities": [_entity(plan.drawing.entities[each]) for each in numbers]}
+
+
+def _left_entry(left_out: LeftOut) -> LeftEntry:
+    x, y = left_out.place_um or (0.0, 0.0)
+    return {"entity": _entity(left_out.entity), "at_mm": _in_mm(x, y), "why": left_out.why}
+
+
+def _in_mm(x_um: float, y_um: float) -> list[float]:
+    return [rounded(mm(x_um)), rounded(mm(y_um))]
+
+
+def _bridged(plan: CutPlan) -> Iterator[BridgedEntry]:
+    """Gaps of the drawing between curves of one contour, where these are cut or prolonged to meet."""
+    for cut in plan.cuts:
+        for bridge in cut.figure.bridges:
+            gap_mm = rounded(mm(bridge.gap_um))
+            yield {"figure": cut.figure.number, "at_mm": _in_mm(*bridge.place_um), "gap_mm": gap_mm}
+
+
 def _left_out(left_out: LeftOut, say: Say) -> LeftOutEntry:
     return {
         "entity": _entity(left_out.entity),
         "why": left_out.why,
-        "text": say(f"program.left-out-{left_out.why}"),
+        "text": say(f"program.left-out-{left_out.why}", **dict(left_out.values)),
         "detail": None if left_out.detail is None else remark_text(left_out.detail, say.language),
         "gap_um": known(left_out.gap_um),
         "place_um": None if left_out.place_um is None else place(left_out.place_um),

@@ -88,6 +88,29 @@ class LeftOutEntry(TypedDict):
     place_um: Point | None
 
 
+class TakenEntry(TypedDict):
+    """A contour that is cut: the number of its figure, and the entities that draw it."""
+
+    figure: Ordinal
+    entities: Annotated[list[EntityEntry], of_length(1)]
+
+
+class LeftEntry(TypedDict):
+    """A contour, or a curve that closes none, that is not cut, and why."""
+
+    entity: EntityEntry
+    at_mm: Point
+    why: Slug
+
+
+class BridgedEntry(TypedDict):
+    """A gap of the drawing that was bridged."""
+
+    figure: Ordinal
+    at_mm: Point
+    gap_mm: Positive
+
+
 class PiecesEntry(TypedDict):
     """Pieces that the program cuts free."""
 
@@ -149,6 +172,9 @@ class ProgramDocument(TypedDict):
     drawing: DrawingFileEntry | None
     fit: FitEntry | None
     figures: list[FigureEntry]
+    taken: list[TakenEntry]
+    left: list[LeftEntry]
+    bridged: list[BridgedEntry]
     left_out: list[LeftOutEntry]
     length_um: Size | None
     time_s: Size | None

@@ -11,7 +11,7 @@ The program that a scenario asks for, made of its drawing.
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 
@@ -27,7 +27,7 @@ from parser.write.iso import IsoChoices, iso_choices
 from sim.base.progress import Progress, silent
 from sim.make.cam.compensated_draft import added_draft, draft_of_plan, kept_draft
 from sim.make.cam.contacts import walls
-from sim.make.cam.model import CannotCutError, CutPlan, Refusal, with_sides
+from sim.make.cam.model import CannotCutError, CutPlan, Figure, FigureCut, NotProved, Parts, Refusal, Thread, with_sides
 from sim.make.cam.order import in_order
 from sim.make.cam.parts import parts_of
 from sim.make.cam.passes import figure_cut, offsets_of
@@ -92,6 +92,16 @@ _SURELY_ALONE = 2  # fits: of a large drawing no more is looked at than the one 
 _FLATTEN_SHARE = 0.01  # of the tolerance: how far the lines of the drawing as it is drawn lie off its curves
 
 
+class _MakeRequest(NamedTuple):
+    """What is asked for: of which drawing, how, on whose machine, whom it tells, and figures that failed a proof."""
+
+    path: Path
+    making: Making
+    scenario: Scenario
+    progress: Progress
+    at_fault: tuple[NotProved, ...] = ()
+
+
 class MadeProgram(NamedTuple):
     """A program that was made of a drawing.
 
@@ -124,6 +134,13 @@ class MadeProgram(NamedTuple):
         """Whether its run was looked at, all of it, and nothing speaks against it."""
         return self.proof is not None and self.proof.verdict == "pass"
 
+    @property
+    def verdict(self) -> Literal["pass", "to-check", "incomplete", "fail"]:
+        """That of its proof; of one that passes, whether something of the drawing is to be checked."""
+        if self.proof is None:
+            return "incomplete"
+        return "to-check" if self.is_proved and (self.plan.to_check or self.plan.doubts) else self.proof.verdict
+
 
 class NotMade(NamedTuple):
     """Why there is none, and as much of the plan as there is."""
@@ -132,17 +149,33 @@ class NotMade(NamedTuple):
     plan: CutPlan | None = None
 
 
-def planned(
-    path: Path, making: Making, scenario: Scenario, progress: Progress = silent, fit_um: float | None = None
-) -> CutPlan:
-    """What is to be cut, and how, with arcs fitted within `fit_um`, else the tolerance of the path.
+def planned(path: Path, making: Making, scenario: Scenario, progress: Progress = silent) -> CutPlan:
+    """What is to be cut, and how, with arcs fitted within the tolerance of the path.
 
-    CannotCutError where the drawing asks for what cannot be.
+    Figures that cannot be cut stay uncut, as long as others can. CannotCutError where none can, or where the drawing
+    asks for what cannot be.
     """
+    return _planned(_MakeRequest(path, making, scenario, progress), making.tolerance_um)
+
+
+def _planned(request: "_MakeRequest", fit_um: float) -> CutPlan:
+    """The same with arcs fitted within `fit_um`."""
+    path, making, scenario, progress, at_fault = request
     progress("drawing", 0, 1)
-    drawing = read_drawing(path, making.layer, making.gap_um, fit_um=fit_um or making.tolerance_um)
+    drawing = read_drawing(path, making.layer, making.gap_um, fit_um=fit_um, unit=making.unit)
     progress("figures", 0, 1)
-    parts = parts_of(drawing, making)
+    parts = parts_of(drawing, making).without(at_fault)
+    while True:
+        try:
+            return _plan_of(drawing, parts, making, scenario)
+        except CannotCutError as error:
+            if not (error.refusals and parts.without(error.refusals).figures):
+                raise
+            parts = parts.without(error.refusals)
+
+
+def _plan_of(drawing: Drawing, parts: Parts, making: Making, scenario: Scenario) -> CutPlan:
+    """How some parts are cut. CannotCutError where they cannot be, or some of them."""
     passes_um = making.passes_um or (scenario.wire.reach_um,)
     figures = with_sides(parts.figures, making)
     widest_um = [max(offsets_of(figure, passes_um, making)) for figure in figures]
@@ -150,18 +183,25 @@ def planned(
     threads = threads_of(drawing, figures, making, max(widest_um))
     notes += thread_notes(figures, threads, making)
     order = in_order(figures, threads, making)
-    cuts = tuple(figure_cut(figures[each], threads[each], passes_um, making) for each in order)
-    return CutPlan(drawing, making, passes_um, cuts, parts.left_out, notes)
+    cuts = _cuts([(figures[each], threads[each]) for each in order], passes_um, making)
+    return CutPlan(drawing, making, passes_um, cuts, parts.uncut, parts.left_out, notes)
 
 
-class _MakeRequest(NamedTuple):
-    """What `made_program` is asked for."""
-
-    path: Path
-    making: Making
-    wanted: Wanted
-    scenario: Scenario
-    progress: Progress
+def _cuts(
+    threaded: Sequence[tuple[Figure, Thread]], passes_um: tuple[float, ...], making: Making
+) -> tuple[FigureCut, ...]:
+    """How figures are cut from their threads. CannotCutError with all of them that cannot be."""
+    cuts, refusals = list[FigureCut](), list[Refusal]()
+    for figure, thread in threaded:
+        try:
+            cuts.append(figure_cut(figure, thread, passes_um, making))
+        except CannotCutError as error:
+            if not error.refusals:
+                raise
+            refusals += error.refusals
+    if refusals:
+        raise CannotCutError(*refusals)
+    return tuple(cuts)
 
 
 def made_program(
@@ -169,16 +209,29 @@ def made_program(
 ) -> MadeProgram | NotMade:
     """A program of a drawing, proved on the machine of a scenario.
 
+    Figures that fail the proof stay uncut where the program of the others passes it.
+
     Raises FileUnreadableError and DrawingError where there is no drawing, SettingsError where the dialect cannot say
     what it needs.
     """
-    done = unproved(path, making, wanted, scenario, progress)
+    request = _MakeRequest(path, making, scenario, progress)
+    done = _proved(request, wanted)
+    if isinstance(done, MadeProgram) and done.proof is not None and done.proof.at_fault:
+        others = _proved(request._replace(at_fault=done.proof.at_fault), wanted)
+        if isinstance(others, MadeProgram) and others.is_proved:
+            return others
+    return done
+
+
+def _proved(request: _MakeRequest, wanted: Wanted) -> MadeProgram | NotMade:
+    """A program with its proof."""
+    done = _unproved(request, wanted)
     if isinstance(done, NotMade):
         return done
-    done = _with_drawn(done, path)
+    done = _with_drawn(done, request.path)
     assert done.drawn is not None  # noqa: S101 - read before
     given = ToProve(done.program, done.plan, done.drawn, done.written, wanted.bound_um)
-    return done._replace(proof=proved(given, scenario, progress))
+    return done._replace(proof=proved(given, request.scenario, request.progress))
 
 
 def unproved(
@@ -188,9 +241,13 @@ def unproved(
 
     Arcs are fitted within the tolerance. Where whole µm move the written path past it, they are fitted anew, nearer.
     """
-    make_request = _MakeRequest(path, making, wanted, scenario, progress)
+    return _unproved(_MakeRequest(path, making, scenario, progress), wanted)
+
+
+def _unproved(request: _MakeRequest, wanted: Wanted) -> MadeProgram | NotMade:
+    path, making = request.path, request.making
     try:
-        done = _fitted(make_request, making.tolerance_um)
+        done = _fitted(request, wanted, making.tolerance_um)
         fit = done.plan.drawing.fit
         fits = fits_um(making.tolerance_um, 0 if fit is None else fit.arcs + fit.lines)
         for fit_um in fits[1:]:
@@ -198,25 +255,24 @@ def unproved(
                 break
             if len(fits) > _SURELY_ALONE:
                 done = _with_drawn(done, path)
-                if not _is_rounded_off(done, make_request):
+                if not _is_rounded_off(done, request.scenario, wanted):
                     break
-            done = _fitted(make_request, fit_um)._replace(drawn=done.drawn)
+            done = _fitted(request, wanted, fit_um)._replace(drawn=done.drawn)
     except CannotCutError as error:
         return NotMade(error.refusal)
     return done
 
 
-def _fitted(request: _MakeRequest, fit_um: float) -> MadeProgram:
+def _fitted(request: _MakeRequest, wanted: Wanted, fit_um: float) -> MadeProgram:
     """A program whose arcs are fitted within `fit_um`. CannotCutError where there is none, or its language has none."""
-    path, making, wanted, scenario, progress = request
-    plan = planned(path, making, scenario, progress, fit_um)
-    progress("write", 0, 1)
+    plan = _planned(request, fit_um)
+    request.progress("write", 0, 1)
     plan = plan._replace(notes=(*plan.notes, *_own_codes(wanted)))
     plan = plan._replace(is_added=wanted.keeps and wanted.language == "4b" and any(plan.passes_um))
     draft = begun(_drafted(plan, wanted), wanted)
     text = written(draft, wanted)
     data = text.text.encode(wanted.encoding, "replace")
-    program = load_program(data, f"{path.stem}.{wanted.language}", read_with(draft, wanted))
+    program = load_program(data, f"{request.path.stem}.{wanted.language}", read_with(draft, wanted))
     return MadeProgram(encoded(text.text, wanted), program, plan, draft, held_against(draft, text, program.toolpath))
 
 
@@ -226,11 +282,11 @@ def _is_surely_within(done: MadeProgram) -> bool:
     return fit is None or fit.max_um <= 0.0 or fit.max_um + done.written.off_um <= done.plan.making.tolerance_um
 
 
-def _is_rounded_off(done: MadeProgram, request: _MakeRequest) -> bool:
+def _is_rounded_off(done: MadeProgram, scenario: Scenario, wanted: Wanted) -> bool:
     """Whether the written path lies past the tolerance, by no more than rounding explains."""
     assert done.drawn is not None  # noqa: S101 - read before
-    off_um = path_off_um(done.program, done.plan, done.drawn, request.scenario.wire.reach_um)
-    return off_um is not None and 0.0 < off_um - request.making.tolerance_um <= request.wanted.bound_um
+    off_um = path_off_um(done.program, done.plan, done.drawn, scenario.wire.reach_um)
+    return off_um is not None and 0.0 < off_um - done.plan.making.tolerance_um <= wanted.bound_um
 
 
 def _own_codes(wanted: Wanted) -> tuple[Remark, ...]:
@@ -247,7 +303,8 @@ def _with_drawn(done: MadeProgram, path: Path) -> MadeProgram:
     if plan.drawing.fit is None:
         return done._replace(drawn=plan.drawing)
     flatten_um = min(DEFAULT_FLATTEN_UM, _FLATTEN_SHARE * plan.making.tolerance_um)
-    return done._replace(drawn=read_drawing(path, plan.making.layer, plan.making.gap_um, flatten_um))
+    making = plan.making
+    return done._replace(drawn=read_drawing(path, making.layer, making.gap_um, flatten_um, unit=making.unit))
 
 
 def _drafted(plan: CutPlan, wanted: Wanted) -> Draft:

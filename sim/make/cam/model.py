@@ -3,18 +3,26 @@
 On which side of each contour the wire runs, and which way round.
 """
 
+import math
 from collections.abc import Sequence
-from typing import Literal, NamedTuple
+from typing import Final, Literal, NamedTuple
 
 from controller.offset.shifted import Side
-from parser.drawing.model import Drawing, LeftOut
+from parser.drawing.model import Drawing, Entity, LeftOut
 from parser.findings.catalogue import Remark
-from parser.geometry.curves import Curves, Ints
+from parser.geometry.curves import Curves, Ints, extents
 from parser.toolpath import Point
 from sim.setup.making import LeadIn, Making, SideWish
 
 FigureKind = Literal["hole", "outline"]
 ThreadedBy = Literal["asked", "marked", "chosen", "contour"]
+
+
+class Bridge(NamedTuple):
+    """A gap of the drawing that is bridged in a contour: the middle between both ends, and how far they lie apart."""
+
+    place_um: Point
+    gap_um: float
 
 
 class Figure(NamedTuple):
@@ -34,10 +42,12 @@ class Figure(NamedTuple):
         (m,) as drawn, counter-clockwise, each curve from the end of the one before it, the first from that of the last.
     entity
         (m,) number of the drawing's entity that each is of.
-    layer
-        That of its first entity.
+    first
+        Its first entity.
     runs_inside
         Whether the wire runs within it, in the waste: of a hole; outside of an outline, unless asked otherwise.
+    bridges
+        Gaps of the drawing that are bridged in it.
     """
 
     number: int
@@ -46,16 +56,45 @@ class Figure(NamedTuple):
     depth: int
     contour: Curves
     entity: Ints
-    layer: str
+    first: Entity
     runs_inside: bool
+    bridges: tuple[Bridge, ...] = ()
+
+    @property
+    def layer(self) -> str:
+        """The layer of its first entity."""
+        return self.first.layer
 
 
 class Parts(NamedTuple):
-    """Figures, and what is cut of none, with what was found doubtful and settled."""
+    """Figures, and what is cut of none, with what was found doubtful and settled.
+
+    Attributes
+    ----------
+    figures
+        What is cut.
+    uncut
+        Contours that are not cut, and what would be one if it closed, closed by lines: all that lies around others.
+    left_out
+        What of the drawing is in no figure, entity by entity.
+    notes
+        What was found doubtful and settled.
+    """
 
     figures: tuple[Figure, ...]
+    uncut: tuple[Curves, ...]
     left_out: tuple[LeftOut, ...]
     notes: tuple[Remark, ...]
+
+    def without(self, refusals: "Sequence[Refusal | NotProved]") -> "Parts":
+        """The parts without the figures that cannot be cut, or fail; of several reasons of one the first is told."""
+        why = {number: refusal for refusal in reversed(refusals) for number in refusal.figures}
+        uncut = [figure for figure in self.figures if figure.number in why]
+        return self._replace(
+            figures=tuple(figure for figure in self.figures if figure.number not in why),
+            uncut=(*self.uncut, *(figure.contour for figure in uncut)),
+            left_out=(*self.left_out, *(_refused(figure, why[figure.number]) for figure in uncut)),
+        )
 
 
 class Refusal(NamedTuple):
@@ -69,19 +108,55 @@ class Refusal(NamedTuple):
         Where it is seen.
     values
         What fills the text.
+    figures
+        Numbers of the figures that cannot be cut; without them the others may be. None where it is about no figure.
     """
 
     why: str
     places_um: tuple[Point, ...] = ()
     values: tuple[tuple[str, str], ...] = ()
+    figures: tuple[int, ...] = ()
+
+
+class NotProved(NamedTuple):
+    """A figure that fails the proof of a program: its number, and by what, a code or the name of a fault."""
+
+    number: int
+    what: str
+
+    @property
+    def figures(self) -> tuple[int, ...]:
+        """Its number, as `Refusal` has it."""
+        return (self.number,)
+
+
+def _refused(figure: Figure, refusal: "Refusal | NotProved") -> LeftOut:
+    """A figure as one that is left out; its place is the one of the refusal that lies nearest to it."""
+    if isinstance(refusal, NotProved):
+        x, y = figure.contour.start_um[0].tolist()
+        values = ("figure", str(refusal.number)), ("what", refusal.what)
+        return LeftOut(figure.first, "not-proved", (x, y), values=values)
+    low, high = extents(figure.contour)
+    x, y = (0.5 * (low.min(axis=0) + high.max(axis=0))).tolist()
+    nearest = min(refusal.places_um, key=lambda place: math.hypot(place.x - x, place.y - y), default=Point(x, y))
+    return LeftOut(figure.first, refusal.why, (nearest.x, nearest.y), values=refusal.values)
 
 
 class CannotCutError(Exception):
-    """Raised with a `Refusal` where a drawing asks for what cannot be cut, or not for certain."""
+    """Raised with a `Refusal` where a drawing asks for what cannot be cut, or not for certain; of figures with several.
 
-    def __init__(self, refusal: Refusal) -> None:
+    Attributes
+    ----------
+    refusal
+        The first of them.
+    refusals
+        All of them where each is about figures, without which others may be cut; else none.
+    """
+
+    def __init__(self, refusal: Refusal, *more: Refusal) -> None:
         super().__init__(refusal.why)
         self.refusal = refusal
+        self.refusals = (refusal, *more) if all(each.figures for each in (refusal, *more)) else ()
 
 
 class Entry(NamedTuple):
@@ -169,6 +244,24 @@ class FigureCut(NamedTuple):
     cut_off: tuple[PassCut, ...] = ()
 
 
+UNCUT: Final = (
+    "almost-closed",
+    "crosses-itself",
+    "crossing",
+    "divided",
+    "divides",
+    "falls-apart",
+    "narrow-neck",
+    "narrow-slot",
+    "no-room",
+    "not-proved",
+    "shared-edge",
+    "too-near",
+    "too-small",
+)
+"""Why a contour is not cut, or what may be one, though nobody asked for that: it is to be checked."""
+
+
 class CutPlan(NamedTuple):
     """All that is cut, in running order, with what it was made of.
 
@@ -179,9 +272,25 @@ class CutPlan(NamedTuple):
     making: Making
     passes_um: tuple[float, ...]
     cuts: tuple[FigureCut, ...]
+    uncut: tuple[Curves, ...]
     left_out: tuple[LeftOut, ...]
     notes: tuple[Remark, ...]
     is_added: bool = False
+
+    @property
+    def uncut_entities(self) -> tuple[LeftOut, ...]:
+        """Contours and curves that are not cut and might be, each by the first of its entities."""
+        return tuple(each for each in self.left_out if each.why in {*UNCUT, "open", "not-picked"})
+
+    @property
+    def to_check(self) -> tuple[LeftOut, ...]:
+        """Those of them that nobody asked to leave."""
+        return tuple(each for each in self.left_out if each.why in UNCUT)
+
+    @property
+    def doubts(self) -> tuple[Remark, ...]:
+        """What was read of the drawing and may be meant otherwise: its unit."""
+        return tuple(note for note in self.drawing.notes if note.name == "doubtful-unit")
 
 
 _MOST_NAMED = 10

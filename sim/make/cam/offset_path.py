@@ -206,15 +206,17 @@ def _reached(figure: Figure, by_um: float) -> OffsetLoop:
     loops = reach(figure.contour, by_um, side).loops
     values = (("figure", str(figure.number)), ("offset_mm", _mm(by_um)), ("kerf_mm", _mm(2.0 * by_um)))
     if not loops:
-        raise CannotCutError(Refusal("too-small", (Point(*figure.contour.start_um[0].tolist()),), values))
+        start = Point(*figure.contour.start_um[0].tolist())
+        raise CannotCutError(Refusal("too-small", (start,), values, (figure.number,)))
     narrow = sorted(mouths(figure.contour, loops, by_um, figure.runs_inside), key=lambda mouth: mouth.wide_um)
     places = tuple(mouth.place_um for mouth in narrow)
     if narrow:
         why = "narrow-neck" if len(loops) > 1 else "narrow-slot"
-        raise CannotCutError(Refusal(why, places, (*values, ("width_mm", _mm(narrow[0].wide_um)))))
+        width = ("width_mm", _mm(narrow[0].wide_um))
+        raise CannotCutError(Refusal(why, places, (*values, width), (figure.number,)))
     if len(loops) > 1:
         starts = tuple(Point(*loop.curves.start_um[0].tolist()) for loop in loops)
-        raise CannotCutError(Refusal("falls-apart", starts, values))
+        raise CannotCutError(Refusal("falls-apart", starts, values, (figure.number,)))
     (loop,) = loops
     kept_rows = np.flatnonzero(loop.curves.length_um > 0.0)
     return OffsetLoop(loop.curves.picked(kept_rows), loop.source_row[kept_rows], loop.corner[kept_rows])

@@ -22,7 +22,7 @@ from parser.toolpath import Point, Toolpath
 from parser.units import mm
 from sim.base.progress import Progress, silent
 from sim.cut.pieces.pieces import Piece, Pieces
-from sim.make.cam.model import CutPlan, with_sides
+from sim.make.cam.model import CutPlan, NotProved, with_sides
 from sim.make.cam.target import AsRun, Fault, Proof, Target, as_run, target_of
 from sim.make.convert import Proof as Written
 from sim.measure.compare.compare import compare_program
@@ -125,13 +125,14 @@ def proved(given: ToProve, scenario: Scenario, progress: Progress = silent) -> P
         return ran
     path, of_path = _path(given, target, run, how)
     cut, of_cut = _as_cut(given, target, run, how)
-    return ran._replace(
+    done = ran._replace(
         path=path,
         comparison=cut,
         findings=(*ran.findings, *of_cut.findings),
         faults=(*ran.faults, *of_path.faults, *of_cut.faults),
         unproved=(*ran.unproved, *of_path.unproved, *of_cut.unproved),
     )
+    return done._replace(at_fault=_at_fault(done, run, of_cut.findings, plan))
 
 
 def _of_run(run: DryRun, how: AsRun) -> tuple[tuple[Finding, ...], tuple[Remark, ...]]:
@@ -142,6 +143,22 @@ def _of_run(run: DryRun, how: AsRun) -> tuple[tuple[Finding, ...], tuple[Remark,
     return tuple(finding for finding in run.findings if not isinstance(finding.fact, OfAddedOffset)), (
         Remark("worked-in"),
     )
+
+
+def _at_fault(proof: Proof, run: DryRun, of_cut: tuple[Finding, ...], plan: CutPlan) -> tuple[NotProved, ...]:
+    """The figures that fail a proof where others do not, by its faults and by the findings `of_cut` on their edges.
+
+    None where anything else speaks against the program: that is of no one figure.
+    """
+    others = [finding for finding in proof.counting if finding not in of_cut]
+    if proof.verdict != "fail" or others or not all(fault.figure for fault in proof.faults):
+        return ()
+    cut_of, by_number = _cut_of_block(run), {cut.figure.number: cut.figure for cut in plan.cuts}
+    what = {plan.cuts[cut_of[each.block]].figure.number: each.code for each in proof.counting}
+    what.update((fault.figure, fault.name) for fault in reversed(proof.faults))
+    if len(what) == len(by_number):
+        return ()
+    return tuple(NotProved(number, what[number]) for number in sorted(what))
 
 
 class _Found(NamedTuple):

@@ -24,7 +24,7 @@ from parser.geometry.curves import Curves, Floats, Ints, curves_between, extents
 from parser.toolpath import Point, Toolpath
 from parser.units import mm
 from sim.check.travel import middle_mm
-from sim.make.cam.model import CutPlan, Figure
+from sim.make.cam.model import CutPlan, Figure, NotProved
 from sim.measure.compare.result import Comparison
 from sim.measure.compare.rings import polygon
 from sim.run.dryrun import DryRun
@@ -83,6 +83,8 @@ class Proof(NamedTuple):
         What was assumed: names of texts ``program.proof-…``.
     wire
         What the program was run with.
+    at_fault
+        The figures that fail where others do not, each with what it fails by.
     """
 
     run: DryRun | None
@@ -94,6 +96,7 @@ class Proof(NamedTuple):
     unproved: tuple[Remark, ...]
     notes: tuple[Remark, ...]
     wire: Wire
+    at_fault: tuple[NotProved, ...] = ()
 
     @property
     def counting(self) -> tuple[Finding, ...]:
@@ -134,7 +137,7 @@ class Target(NamedTuple):
     shapes
         They as polygons.
     depth
-        (k,) how many of the contours that are to be cut lie round each, those among them that the plan does not cut.
+        (k,) how many contours lie round each, cut or not.
     gap_um
         The largest gap that is bridged.
     """
@@ -150,12 +153,16 @@ def target_of(drawn: Drawing, plan: CutPlan) -> tuple[Target | None, tuple[Fault
     """The contours of a drawing that a plan cuts, None where it cuts none; and what of the two is not in the other."""
     closed = [loop for loop in drawn.loops if loop.closed]
     rings = [running(drawn.curves, loop.row, loop.backwards) for loop in closed]
-    found = _nearest(_features([cut.figure.contour for cut in plan.cuts]), _features(rings))
+    features = _features(rings)
+    found = _nearest(_features([cut.figure.contour for cut in plan.cuts]), features)
     known = np.flatnonzero(found >= 0)
     once, first = np.unique(found[known], return_index=True)
     left_out = {each.entity for each in plan.left_out}
+    uncut = np.setdiff1d(_nearest(_features(plan.uncut), features), [-1, *once.tolist()])
     missing = [
-        at for at in np.setdiff1d(np.arange(len(closed)), once).tolist() if not _is_told(drawn, closed[at], left_out)
+        at
+        for at in np.setdiff1d(np.arange(len(closed)), [*once.tolist(), *uncut.tolist()]).tolist()
+        if not _is_told(drawn, closed[at], left_out)
     ]
     faults = (
         *(_of_cut("stray", plan, at) for at in np.flatnonzero(found < 0).tolist()),
@@ -164,14 +171,15 @@ def target_of(drawn: Drawing, plan: CutPlan) -> tuple[Target | None, tuple[Fault
     )
     if not len(once):
         return None, faults
-    shapes = [polygon(rings[at]) for at in (*once.tolist(), *missing)]
+    shapes = [polygon(rings[at]) for at in once.tolist()]
+    others = [*(polygon(rings[at]) for at in missing), *(shapely.make_valid(polygon(each)) for each in plan.uncut)]
     loops = [closed[at] for at in once.tolist()]
     gap_um = max(loop.gap_um for loop in loops)
-    depth = _depths(shapes)[: len(loops)]
-    return Target(_only(drawn, loops), known[first], tuple(shapes[: len(loops)]), depth, gap_um), faults
+    depth = _depths([*shapes, *others])[: len(loops)]
+    return Target(_only(drawn, loops), known[first], tuple(shapes), depth, gap_um), faults
 
 
-def _depths(shapes: Sequence[shapely.Polygon]) -> Ints:
+def _depths(shapes: Sequence[shapely.Geometry]) -> Ints:
     """(k,) how many of the others lie round each: a place within it lies within them, and they are larger."""
     area = shapely.area(shapes)
     inner = np.asarray(shapely.point_on_surface(shapes), dtype=np.object_)

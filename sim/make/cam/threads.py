@@ -325,7 +325,8 @@ class _Waste:
             places = tuple(Point(*self.figures[at].contour.start_um[0].tolist()) for at in missing)
             numbers = ", ".join(str(self.figures[at].number) for at in missing[:_MOST_NUMBERS])
             values = (("figures", numbers), ("least_mm", f"{mm(demands.least_um):.4g}"))
-            raise CannotCutError(Refusal("no-room", places[:_MOST_NUMBERS], values))
+            numbers_of = tuple(self.figures[at].number for at in missing)
+            raise CannotCutError(Refusal("no-room", places[:_MOST_NUMBERS], values, numbers_of))
         return found
 
     def _clear(self, place_um: Floats) -> Floats:

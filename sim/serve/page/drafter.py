@@ -31,7 +31,7 @@ from sim.setup.part import DrawingTarget
 from sim.setup.scenario import Scenario
 from sim.show.refusals import why_refused
 from sim.show.replay.tape import drawing_columns
-from sim.show.terminal.program import advice, against, told_lines
+from sim.show.terminal.program import advice, against, to_check, told_lines
 from sim.show.texts import Words
 
 _WIDE: Final = 100_000
@@ -68,7 +68,7 @@ def _make(request: PageRequest) -> dict[str, Any]:
     drafted: DraftedEntry = {
         "program": file_text(file.name, read_file(data)),
         "told": list(map(printable_entry, lines)),
-        "verdict": done.proof.verdict if done.proof else "incomplete",
+        "verdict": done.verdict,
     }
     return _written_answer(request, drafted)
 
@@ -86,7 +86,8 @@ def _summary(done: MadeProgram, language: Language) -> list[str]:
     words = Words(language)
     proved = [words(f"program.verdict-{done.proof.verdict}")] if done.proof else []
     todo = advice(done, language, words("program.tab-control", label=words("open.tab")))
-    return [*proved, *against(done, language), *todo, *told_lines(done.plan, language, _WIDE)]
+    checked = to_check(done.plan, language)
+    return [*proved, *checked, *against(done, language), *todo, *told_lines(done.plan, language, _WIDE)]
 
 
 def _placement(request: PageRequest, drawing: Drawing, target: DrawingTarget) -> tuple[Placement, list[Bilingual]]:

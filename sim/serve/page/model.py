@@ -41,7 +41,7 @@ class DraftedEntry(TypedDict):
 
     program: FileTextEntry | None
     told: list[SaidEntry]
-    verdict: Annotated[str, one_of("pass", "incomplete", "fail")]
+    verdict: Annotated[str, one_of("pass", "to-check", "incomplete", "fail")]
 
 
 class FindingEntry(TypedDict):

@@ -144,8 +144,21 @@ def print_made(done: MadeProgram, name: Path, where: str, picture: Path | None, 
             say(line)
     if picture is not None:
         say(words("program.written", out=picture))
+    for text in to_check(done.plan, language):
+        for line in wrapped(text, width, "", _INDENT):
+            say(styled(line, COLOURS["to-check"]))
     for line in wrapped(words(f"program.{where}", out=name), width, "", _INDENT):
         say(line)
+
+
+def to_check(plan: CutPlan, language: Language) -> Iterator[str]:
+    """What makes a program that is proved one to be checked: contours that are not cut, a unit that may be another."""
+    words = Words(language)
+    if plan.to_check:
+        several = "not-cut" if len(plan.to_check) == 1 else "some-not-cut"
+        yield words("program.to-check", what=words(f"program.{several}", n=f"{len(plan.to_check):,}"))
+    for doubt in plan.doubts:
+        yield words("program.to-check", what=_note(doubt, words))
 
 
 def print_not_made(refused: NotMade, name: Path, language: Language) -> None:
@@ -160,7 +173,7 @@ def told_lines(plan: CutPlan, language: Language, width: int) -> Iterator[str]:
     words = Words(language)
     texts = [*_same_passes(plan, words), *_fit(plan, words), *_left_out(plan.left_out, words), *_chosen(plan, words)]
     details = [each.detail for each in plan.left_out]
-    notes = (note for note in plan.drawing.notes if note not in details)
+    notes = (note for note in plan.drawing.notes if note not in details and note not in plan.doubts)
     notes = (note for note in (*notes, *plan.notes) if note.name not in _LEFT_OUT or not plan.left_out)
     texts += [words("program.note", what=_note(note, words)) for note in notes]
     for text in texts:
@@ -228,9 +241,9 @@ def _fit(plan: CutPlan, words: Words) -> Iterator[str]:
 
 def _left_out(left_out: tuple[LeftOut, ...], words: Words) -> Iterator[str]:
     """A line for each reason, with the kinds of entities and the first places."""
-    by_reason: dict[str, list[LeftOut]] = defaultdict(list)
+    by_reason: dict[tuple[object, ...], list[LeftOut]] = defaultdict(list)
     for each_left_out in left_out:
-        by_reason[each_left_out.why].append(each_left_out)
+        by_reason[each_left_out.why, each_left_out.values].append(each_left_out)
     for ones in by_reason.values():
         kinds: dict[str, int] = defaultdict(int)
         for excluded in ones:
@@ -243,13 +256,14 @@ def _left_out(left_out: tuple[LeftOut, ...], words: Words) -> Iterator[str]:
 
 def _why(ones: Sequence[LeftOut]) -> Bilingual:
     """Why entities are in no figure, with what is wrong with the first few, or how near the nearest is to closing."""
-    why = bilingual(f"program.left-out-{ones[0].why}")
+    why = bilingual(f"program.left-out-{ones[0].why}", **dict(ones[0].values))
     wrong = [left_out.detail for left_out in ones if left_out.detail is not None][:_MOST_DETAILS]
     gaps_um = [left_out.gap_um for left_out in ones if left_out.gap_um is not None]
     if wrong:
         detail = listed(Bilingual(*(remark_text(each, language) for language in LANGUAGES)) for each in wrong)
     elif gaps_um:
-        detail = bilingual("program.left-out-gap", gap=f"{mm(min(gaps_um)):.3g}")
+        key = "almost-closed-gap" if ones[0].why == "almost-closed" else "gap"
+        detail = bilingual(f"program.left-out-{key}", gap=f"{mm(min(gaps_um)):.3g}")
     else:
         return why
     return bilingual("program.left-out-detail", why=why, detail=detail)

@@ -113,6 +113,7 @@ def test_dependent_values_are_taken_all_at_once(tmp_path: Path) -> None:
 # Of each option of ``drycut program``: what is typed, and what its key of ``[program]`` says for the same.
 TYPED: dict[str, tuple[list[str], str]] = {
     "tolerance_um": (["4um"], "4.0"),
+    "pick": (["2F", "12.5,8"], "['2F', '12.5,8']"),
     "passes_mm": (["0.18mm", "120um"], "[0.18, 0.12]"),
     "side": (["outside"], "'outside'"),
     "direction": (["cw"], "'cw'"),

@@ -111,7 +111,7 @@
  * @typedef {object} Drafted
  * @property {FileText | null} program
  * @property {Said[]} told
- * @property {"pass" | "incomplete" | "fail"} verdict
+ * @property {"pass" | "to-check" | "incomplete" | "fail"} verdict
  */
 
 /**

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from parser.drawing.model import Entity
 from parser.geometry.along import directions, places
 from parser.geometry.curves import Curves, curves_between
 from parser.toolpath import Point
@@ -26,7 +27,9 @@ def closed(corner: np.ndarray) -> Curves:
 
 
 def hole(contour: Curves) -> Figure:
-    return Figure(1, "hole", 1, 1, contour, np.zeros(len(contour), dtype=np.int64), "0", runs_inside=True)
+    return Figure(
+        1, "hole", 1, 1, contour, np.zeros(len(contour), dtype=np.int64), Entity("LINE", "1", "0", ""), runs_inside=True
+    )
 
 
 def ring(radius: float) -> Curves:

@@ -76,18 +76,44 @@ def test_a_circle_of_a_turned_block_begins_on_an_axis_and_closes_exactly(tmp_pat
 
 
 def test_what_cannot_be_cut_is_refused_before_anything_is_written(tmp_path: Path) -> None:
-    narrow = drawn(
-        tmp_path,
-        lambda space: [
-            space.add_lwpolyline([(0, 0), (20, 0), (20, 20), (0, 20)], close=True),
-            space.add_circle((10, 10), 0.06),
-        ],
-    )
+    narrow = drawn(tmp_path, lambda space: space.add_circle((10, 10), 0.06))
     stages: list[str] = []
-    done = made_program(narrow, Making(), TO_3B, plain_scenario(), lambda stage, done, total: stages.append(stage))
+    making = Making(side="inside")
+    done = made_program(narrow, making, TO_3B, plain_scenario(), lambda stage, done, total: stages.append(stage))
     assert isinstance(done, NotMade)
-    assert done.refusal.why
+    assert done.refusal.why == "no-room"
     assert stages == ["drawing", "figures"]
+
+
+def test_what_the_wire_cannot_cut_stays_uncut_and_the_others_are_proved(tmp_path: Path) -> None:
+    """A hole that is too small, and one with a slot of 0.1 mm, narrower than the kerf of 0.2 mm."""
+
+    def draw(space: Modelspace) -> None:
+        slotted = [(8, 2), (12, 2), (12, 6), (10.05, 6), (10.05, 7), (9.95, 7), (9.95, 6), (8, 6)]
+        space.add_lwpolyline([(0, 0), (16, 0), (16, 8), (0, 8)], close=True)
+        space.add_circle((2, 2), 0.06)
+        space.add_circle((4, 6), 1.0)
+        space.add_lwpolyline(slotted, close=True)
+
+    done = made_program(drawn(tmp_path, draw), Making(), TO_3B, plain_scenario())
+    assert isinstance(done, MadeProgram)
+    assert done.is_proved
+    assert [cut.figure.kind for cut in done.plan.cuts] == ["hole", "outline"]
+    assert [left.why for left in done.plan.to_check] == ["no-room", "narrow-slot"]
+    assert dict(done.plan.to_check[1].values)["width_mm"] == "0.1"
+
+
+def test_a_figure_that_fails_its_proof_stays_uncut_where_the_others_pass(tmp_path: Path) -> None:
+    """The lead of a hole that touches its outline from within is read as another pass."""
+
+    def draw(space: Modelspace) -> None:
+        space.add_lwpolyline([(0, 0), (10, 0), (10, 10), (0, 10)], close=True)
+        space.add_circle((5, 5), 5.0)
+
+    done = made_program(drawn(tmp_path, draw), Making(), TO_3B, plain_scenario())
+    assert isinstance(done, MadeProgram)
+    assert done.is_proved
+    assert [left.why for left in done.plan.to_check] == ["not-proved"]
 
 
 def test_sums_of_figures_are_those_of_the_program_and_its_run(path: Path) -> None:

@@ -5,6 +5,7 @@ import random
 import numpy as np
 import pytest
 
+from parser.drawing.model import Entity
 from parser.geometry.curves import curves_between
 from parser.toolpath import Point
 from sim.make.cam.model import CannotCutError, Entry, Figure, Thread, way_of, with_sides
@@ -20,7 +21,9 @@ def square(number: int, part: int, depth: int, box_mm: tuple[float, float, float
     corner = np.array([[x, y], [x + side, y], [x + side, y + side], [x, y + side]])
     contour = curves_between(corner, np.roll(corner, -1, axis=0), np.full((4, 2), np.nan), np.zeros(4))
     kind = "hole" if depth % 2 else "outline"
-    return Figure(number, kind, part, depth, contour, np.zeros(4, dtype=np.int64), layer, depth % 2 == 1)
+    return Figure(
+        number, kind, part, depth, contour, np.zeros(4, dtype=np.int64), Entity("LINE", "1", layer, ""), depth % 2 == 1
+    )
 
 
 def threaded(figure: Figure) -> Thread:

@@ -261,45 +261,95 @@ def test_a_cut_there_and_back_within_one_entity_is_refused():
     assert _refused(polygon(slit)).why == "crosses-itself"
 
 
-@pytest.mark.parametrize(
-    "divider",
-    [
-        _edge(0, 20, 8),  # from side to side
-        [Piece((0, 0), (20, 20))],  # from corner to corner
-        [Piece((0, 5), (7, 7)), Piece((7, 7), (0, 15))],
-    ],
-)
-def test_what_divides_a_contour_is_refused(divider):
-    refusal = _refused(*([side] for side in square(0, 0, 20)), divider)
-    assert (refusal.why, len(refusal.places_um)) == ("divided", 2)
+def test_a_line_across_a_contour_is_left_out_and_the_contour_is_cut():
+    for divider in ([_edge(0, 20, 8)], [[Piece((0, 5), (7, 7)), Piece((7, 7), (0, 15))]]):
+        parts = _parts(*([side] for side in square(0, 0, 20)), *divider)
+        assert (_kinds(parts), _left(parts)) == ([(1, "outline", 0)], ["divides"])
+        assert _area(parts.figures[0]) == pytest.approx(400.0)
 
 
-def test_squares_of_lines_that_share_an_edge_are_refused():
-    refusal = _refused(square(0, 0, 10), square(10, 0, 10), loose=True)
-    assert (refusal.why, _places(refusal)) == ("divided", [(10, 0), (10, 10)])
+@pytest.mark.parametrize("ends", [((0, 0), (20, 20)), ((20, 0), (0, 20))])
+def test_a_contour_that_a_line_divides_from_corner_to_corner_is_not_cut(ends):
+    """Two sides and the line close as well as four sides do."""
+    lines = [*([side] for side in square(0, 0, 20)), [Piece(*ends)]]
+    assert _refused(*lines).why == "divided"
+    parts = _parts(*lines, square(50, 0, 10))
+    assert (_kinds(parts), _left(parts)) == ([(2, "outline", 0)], ["divides", "divided"])
+
+
+def test_squares_of_lines_that_share_an_edge_are_not_cut_as_one():
+    entities = square(0, 0, 10), square(10, 0, 10)
+    assert _refused(*entities, loose=True).why == "divided"
+    parts = _parts(*entities, square(50, 0, 10), loose=True)
+    assert [round(_area(figure)) for figure in parts.figures] == [100]
+    assert "divided" in _left(parts)
+
+
+# What stays uncut beside what is cut
+
+
+def test_contours_that_cross_stay_uncut_and_the_others_are_cut():
+    parts = _parts(
+        square(0, 0, 10), square(5, 5, 10), circle(40, 0, 5), polygon([(60, 0), (70, 10), (70, 0), (60, 10)])
+    )
+    assert _kinds(parts) == [(4, "outline", 0)] or len(parts.figures) == 1
+    assert sorted(_left(parts)) == ["crosses-itself", "crossing", "crossing"]
+    assert len(parts.uncut) == 3
+
+
+def test_a_hole_stays_a_hole_where_its_outline_is_not_cut():
+    hole = circle(10, 10, 3)
+    for outline in (
+        [[side] for side in polygon([(0, 0), (20, 0), (20, 20), (0, 20)])[:3]],  # one side is missing
+        [polygon([(0, 0), (20, 0), (20, 20), (0, 20)]), square(-5, -5, 10)],  # another square crosses it
+        [[_edge(0, 19.7)[0]], *([side] for side in square(0, 0, 20)[1:])],  # it has a gap
+    ):
+        parts = _parts(*outline, hole)
+        (figure,) = parts.figures
+        assert (figure.kind, figure.runs_inside, figure.depth) == ("hole", True, 1)
+
+
+def test_numbers_do_not_depend_on_what_is_cut():
+    whole = _parts(square(0, 0, 20), circle(10, 10, 3), square(30, 0, 20), circle(40, 10, 3))
+    assert [figure.number for figure in whole.figures] == [1, 2, 3, 4]
+    crossed = _parts(square(0, 0, 20), circle(10, 10, 3), square(30, 0, 20), circle(40, 10, 3), circle(10, 16, 5))
+    assert [figure.number for figure in crossed.figures if figure.part == crossed.figures[-1].part] == [4, 5]
 
 
 # What does not close
 
 
 @pytest.mark.parametrize("gap_mm", [0.02, 0.05, 0.3, 3.0])
-def test_a_contour_that_almost_closes_is_refused_with_its_place_and_its_gap(gap_mm):
-    refusal = _refused(_edge(0, 20 - gap_mm), *([side] for side in square(0, 0, 20)[1:]), square(50, 0, 10))
-    assert refusal.why == "almost-closed"
-    assert _places(refusal) == [(round(20 - gap_mm / 2, 3), 0)]
+def test_a_contour_that_almost_closes_is_left_out_with_its_place_and_its_gap(gap_mm):
+    sides = [_edge(0, 20 - gap_mm), *([side] for side in square(0, 0, 20)[1:])]
+    refusal = _refused(*sides)
+    assert (refusal.why, _places(refusal)) == ("almost-closed", [(round(20 - gap_mm / 2, 3), 0)])
     assert dict(refusal.values)["gap_mm"] == f"{gap_mm:g}"
+    assert _kinds(_parts(*sides, gap_um=float(dict(refusal.values)["joins_um"]))) == [(1, "outline", 0)]
+    parts = _parts(*sides, square(50, 0, 10))
+    assert (_kinds(parts), _left(parts)) == ([(2, "outline", 0)], ["almost-closed"])
+    (left,) = parts.left_out
+    assert left.gap_um == pytest.approx(1000.0 * gap_mm)
+    assert left.place_um == pytest.approx((20_000.0 - 500.0 * gap_mm, 0.0))
 
 
 @pytest.mark.parametrize("beside", [[], [[Piece((25, 0), (45, 0))]]])
-def test_a_contour_without_one_of_its_sides_is_refused_whatever_lies_near_it(beside):
-    refusal = _refused(*([side] for side in square(0, 0, 20)[1:]), square(50, 0, 10), *beside)
-    assert (refusal.why, _places(refusal)) == ("almost-closed", [(10, 0)])
+def test_a_contour_without_one_of_its_sides_is_told_whatever_lies_near_it(beside):
+    parts = _parts(*([side] for side in square(0, 0, 20)[1:]), square(50, 0, 10), *beside)
+    assert _left(parts)[0] == "almost-closed"
+    assert len(parts.uncut) == 1
 
 
-def test_two_chains_whose_ends_are_near_each_other_are_refused():
+def test_two_chains_whose_ends_are_near_each_other_are_one_contour_that_is_not_cut():
     halves = [Piece((0, 0), (10, 0)), Piece((10, 0), (10, 10))], [Piece((10.5, 10), (0, 10)), Piece((0, 10), (0, 0.5))]
-    refusal = _refused(*halves, square(50, 0, 10))
-    assert (refusal.why, _places(refusal)) == ("almost-closed", [(0, 0.25), (10.25, 10)])
+    assert _places(_refused(*halves)) == [(0, 0.25), (10.25, 10)]
+    parts = _parts(*halves, circle(5, 5, 2))
+    assert (_left(parts), len(parts.uncut)) == (["almost-closed", "almost-closed"], 1)
+    assert parts.figures[0].kind == "hole"
+
+
+def test_a_contour_open_by_more_than_a_gap_can_bridge_is_told_without_one():
+    assert _refused(*([side] for side in square(0, 0, 200)[1:])).why == "wide-open"
 
 
 def test_free_lines_are_left_out_with_their_place_and_told():

@@ -9,6 +9,7 @@ import pytest
 import shapely
 from cam_contours import circle, contour, figure, flat, rounded, star
 
+from parser.drawing.model import Entity
 from parser.geometry.along import headings_along, places_at
 from parser.geometry.curves import Curves, joined
 from parser.toolpath import Point
@@ -124,14 +125,14 @@ def test_a_hole_has_no_tab_and_an_outline_cut_from_within_has_none() -> None:
     ],
 )
 def test_what_does_not_go_together_is_refused_by_name(making: Making, why: str) -> None:
-    of = figure(SQUARE, inside=False)._replace(layer="a")
+    of = figure(SQUARE, inside=False)._replace(first=Entity("LINE", "1", "a", ""))
     with pytest.raises(CannotCutError) as error:
         figure_cut(of, threaded(of), PASSES, making)
     assert error.value.refusal.why == why
 
 
 def test_a_layer_has_its_own_passes() -> None:
-    of = figure(SQUARE, inside=True)._replace(layer="Fine")
+    of = figure(SQUARE, inside=True)._replace(first=Entity("LINE", "1", "Fine", ""))
     making = Making(layers=(LayerWish("other", passes_um=(50.0,)), LayerWish("FINE", passes_um=(150.0, 90.0))))
     assert [one.by_um for one in figure_cut(of, threaded(of), PASSES, making).passes] == [150.0, 90.0]
 

@@ -38,7 +38,16 @@ def box(x: float, y: float, wide: float, high: float) -> Curves:
 
 def figure(number: int, part: int, depth: int, contour: Curves) -> Figure:
     kind = "hole" if depth % 2 else "outline"
-    return Figure(number, kind, part, depth, contour, np.zeros(len(contour), dtype=np.int64), "0", depth % 2 == 1)
+    return Figure(
+        number,
+        kind,
+        part,
+        depth,
+        contour,
+        np.zeros(len(contour), dtype=np.int64),
+        Entity("LINE", "1", "0", ""),
+        depth % 2 == 1,
+    )
 
 
 def drawing(marks: tuple[Mark, ...] = (), rings: Curves = NO_CURVES) -> Drawing:

@@ -1,0 +1,85 @@
+"""Which contours of a drawing are picked: by entity, place, window, layer or colour."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from parser.drawing.model import Entity
+from parser.geometry.curves import Bools, Floats, extents, is_inside
+from sim.make.cam.contours import Contours, Nesting
+from sim.make.cam.model import CannotCutError, Refusal
+from sim.setup.picks import OfColor, OfEntity, OfLayer, OfPart, OfWindow, Pick
+
+
+class Pickable(NamedTuple):
+    """Contours (l,) that may be picked.
+
+    Attributes
+    ----------
+    contours, nested, area_um2
+        The contours, how they lie within each other, and their areas.
+    entities
+        Of each.
+    is_whole
+        Whether each closes; those that do not lie around others, and nobody can pick them.
+    """
+
+    contours: Contours
+    nested: Nesting
+    area_um2: Floats
+    entities: tuple[tuple[Entity, ...], ...]
+    is_whole: Bools
+
+
+def picked(among: Pickable, picks: Sequence[Pick]) -> Bools:
+    """(l,) which contours are picked, by any of some picks.
+
+    CannotCutError, ``no-pick``, where one of them picks nothing: it may be a slip.
+    """
+    chosen = np.zeros(len(among.entities), dtype=np.bool_)
+    for pick in picks:
+        of_pick = _picked(among, pick) & among.is_whole
+        if not of_pick.any():
+            raise CannotCutError(Refusal("no-pick", (), (("pick", str(pick)),)))
+        chosen[of_pick] = True
+    return chosen
+
+
+def _picked(among: Pickable, pick: Pick) -> Bools:
+    match pick:
+        case OfEntity(handle):
+            return _any(among, [{each.handle.casefold() for each in own} for own in among.entities], handle.casefold())
+        case OfLayer(layer):
+            return _any(among, [{each.layer.casefold() for each in own} for own in among.entities], layer.casefold())
+        case OfColor(color):
+            return _any(among, [{each.color for each in own} for own in among.entities], color)
+        case OfPart(place_um):
+            return _part_at(among, np.array([place_um]))
+        case OfWindow(low_um, high_um):
+            low, high = extents(among.contours.curves)
+            first = np.searchsorted(among.contours.loop, np.arange(len(among.entities)))
+            lowest, highest = np.minimum.reduceat(low, first), np.maximum.reduceat(high, first)
+            within: Bools = np.all((lowest >= low_um) & (highest <= high_um), axis=1)
+            return within
+
+
+def _any(among: Pickable, names: Sequence[set[str]] | Sequence[set[int]], name: str | int) -> Bools:
+    return np.array([name in own for own in names], dtype=np.bool_).reshape(len(among.entities))
+
+
+def _part_at(among: Pickable, place_um: Floats) -> Bools:
+    """The part in whose material a place (1, 2) lies, with its holes; or the hole in which it lies.
+
+    None where the smallest contour around it is not whole.
+    """
+    chosen = np.zeros(len(among.entities), dtype=np.bool_)
+    around = [at for at in range(len(chosen)) if bool(is_inside(among.contours.contour(at), place_um)[0])]
+    inner = min(around, key=lambda at: float(among.area_um2[at]), default=-1)
+    if inner < 0 or not among.is_whole[inner]:
+        return chosen
+    chosen[inner] = True
+    if among.nested.depth[inner] % 2 == 0:
+        holes = (among.nested.around == inner) & (among.nested.depth == among.nested.depth[inner] + 1)
+        chosen[holes] = True
+    return chosen
