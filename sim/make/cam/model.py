@@ -66,6 +66,13 @@ class Figure(NamedTuple):
         return self.first.layer
 
 
+class Uncut(NamedTuple):
+    """A contour that is not cut, closed by lines where it has a gap, and why: as `LeftOut` has it."""
+
+    contour: Curves
+    why: str
+
+
 class Parts(NamedTuple):
     """Figures, and what is cut of none, with what was found doubtful and settled.
 
@@ -82,7 +89,7 @@ class Parts(NamedTuple):
     """
 
     figures: tuple[Figure, ...]
-    uncut: tuple[Curves, ...]
+    uncut: tuple[Uncut, ...]
     left_out: tuple[LeftOut, ...]
     notes: tuple[Remark, ...]
 
@@ -90,10 +97,12 @@ class Parts(NamedTuple):
         """The parts without the figures that cannot be cut, or fail; of several reasons of one the first is told."""
         why = {number: refusal for refusal in reversed(refusals) for number in refusal.figures}
         uncut = [figure for figure in self.figures if figure.number in why]
+        left_out = [_refused(figure, why[figure.number]) for figure in uncut]
+        contours = [Uncut(figure.contour, each.why) for figure, each in zip(uncut, left_out, strict=True)]
         return self._replace(
             figures=tuple(figure for figure in self.figures if figure.number not in why),
-            uncut=(*self.uncut, *(figure.contour for figure in uncut)),
-            left_out=(*self.left_out, *(_refused(figure, why[figure.number]) for figure in uncut)),
+            uncut=(*self.uncut, *contours),
+            left_out=(*self.left_out, *left_out),
         )
 
 
@@ -272,7 +281,7 @@ class CutPlan(NamedTuple):
     making: Making
     passes_um: tuple[float, ...]
     cuts: tuple[FigureCut, ...]
-    uncut: tuple[Curves, ...]
+    uncut: tuple[Uncut, ...]
     left_out: tuple[LeftOut, ...]
     notes: tuple[Remark, ...]
     is_added: bool = False
@@ -285,7 +294,11 @@ class CutPlan(NamedTuple):
     @property
     def to_check(self) -> tuple[LeftOut, ...]:
         """Those of them that nobody asked to leave."""
-        return tuple(each for each in self.left_out if each.why in UNCUT)
+        return tuple(each for each in self.left_out if self.is_to_check(each.why))
+
+    def is_to_check(self, why: str) -> bool:
+        """Whether what is not cut for this reason is to be checked: of picked contours, not what nobody can pick."""
+        return why in UNCUT and not (self.making.picks and why in {"almost-closed", "divides"})
 
     @property
     def doubts(self) -> tuple[Remark, ...]:

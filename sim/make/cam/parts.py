@@ -19,7 +19,7 @@ from parser.units import mm
 from sim.make.cam.contacts import Contacts, contacts, crossed, overlaps, self_contacts, spread
 from sim.make.cam.contours import Contours, Nesting, contours_of, nesting
 from sim.make.cam.loose import Closing, Loose, loose_of
-from sim.make.cam.model import Bridge, CannotCutError, Figure, Parts, Refusal
+from sim.make.cam.model import Bridge, CannotCutError, Figure, Parts, Refusal, Uncut
 from sim.make.cam.picks import Pickable, picked
 from sim.setup.making import Making
 from sim.setup.part import GAP_UM
@@ -65,7 +65,7 @@ def parts_of(drawing: Drawing, making: Making) -> Parts:
     touching = contacts(found.contours)
     nested = nesting(found.contours, _places(found, touching), found.area_um2)
     wanted = picked(_pickable(drawing, found, nested), making.picks) if making.picks else found.is_whole
-    why = {at: _Uncut("not-picked") for at in np.flatnonzero(found.is_whole & ~wanted).tolist()}
+    why = {at: _Uncertain("not-picked") for at in np.flatnonzero(found.is_whole & ~wanted).tolist()}
     why |= _uncertain(found, wanted, touching, loose.divided, within)
     is_cut = found.is_whole.copy()
     is_cut[list(why)] = False
@@ -73,13 +73,16 @@ def parts_of(drawing: Drawing, making: Making) -> Parts:
         raise CannotCutError(_nothing_certain(drawing, found, why))
     return Parts(
         _figures(drawing, found, nested, is_cut),
-        tuple(found.contours.contour(at) for at in np.flatnonzero(~is_cut).tolist()),
+        tuple(
+            Uncut(found.contours.contour(at), why[at].why if at in why else "almost-closed")
+            for at in np.flatnonzero(~is_cut).tolist()
+        ),
         (*_left_of(drawing, making.thread_layer), *loose.left_out, *again, *_uncut_said(drawing, found, why)),
         (),
     )
 
 
-class _Uncut(NamedTuple):
+class _Uncertain(NamedTuple):
     """Why a contour is not cut, the other contour that it is about, and where this is seen, places (k, 2)."""
 
     why: str
@@ -89,14 +92,14 @@ class _Uncut(NamedTuple):
 
 def _uncertain(
     found: _Found, wanted: Bools, touching: Contacts, divided: frozenset[int], within_um: float
-) -> dict[int, _Uncut]:
+) -> dict[int, _Uncertain]:
     """Those of the contours that are wanted (l,) that are not certain, by their numbers; of several reasons the first.
 
     What is not wanted makes no other one uncertain.
     """
     over = overlaps(found.contours)
     is_own = over.this == over.other
-    why = dict[int, _Uncut]()
+    why = dict[int, _Uncertain]()
     for places, name in (
         (self_contacts(found.contours), "crosses-itself"),
         (over.take(is_own), "crosses-itself"),
@@ -107,13 +110,13 @@ def _uncertain(
         for at in np.unique(np.append(drawn.this, drawn.other)).tolist():
             here = drawn.take((drawn.this == at) | (drawn.other == at))
             other = int(here.other[0] if here.this[0] == at else here.this[0])
-            why.setdefault(at, _Uncut(name, other, here.place_um))
+            why.setdefault(at, _Uncertain(name, other, here.place_um))
     for at in np.flatnonzero(wanted & np.isin(found.number, list(divided))).tolist():
-        why.setdefault(at, _Uncut("divided"))
+        why.setdefault(at, _Uncertain("divided"))
     return why
 
 
-def _uncut_said(drawing: Drawing, found: _Found, why: dict[int, _Uncut]) -> Iterator[LeftOut]:
+def _uncut_said(drawing: Drawing, found: _Found, why: dict[int, _Uncertain]) -> Iterator[LeftOut]:
     """What is said of the contours that are not cut, each by the first of its entities."""
     for at, uncut in why.items():
         place = uncut.place_um[0].tolist() if len(uncut.place_um) else _start(found, at)
@@ -138,7 +141,7 @@ def _nothing_closed(drawing: Drawing, flat: list[DrawnLoop], loose: Loose) -> Re
     return Refusal("no-contour", tuple(Point(*place) for place in (*starts, *open_ones)))
 
 
-def _nothing_certain(drawing: Drawing, found: _Found, why: dict[int, _Uncut]) -> Refusal:
+def _nothing_certain(drawing: Drawing, found: _Found, why: dict[int, _Uncertain]) -> Refusal:
     """Why no contour is cut: the first reason that is one of the drawing itself."""
     at = min(why, key=lambda each: (why[each].why == "not-picked", each))
     alike = [each for each in why if why[each].why == why[at].why]

@@ -158,7 +158,7 @@ def target_of(drawn: Drawing, plan: CutPlan) -> tuple[Target | None, tuple[Fault
     known = np.flatnonzero(found >= 0)
     once, first = np.unique(found[known], return_index=True)
     left_out = {each.entity for each in plan.left_out}
-    uncut = np.setdiff1d(_nearest(_features(plan.uncut), features), [-1, *once.tolist()])
+    uncut = np.setdiff1d(_nearest(_features([each.contour for each in plan.uncut]), features), [-1, *once.tolist()])
     missing = [
         at
         for at in np.setdiff1d(np.arange(len(closed)), [*once.tolist(), *uncut.tolist()]).tolist()
@@ -172,7 +172,10 @@ def target_of(drawn: Drawing, plan: CutPlan) -> tuple[Target | None, tuple[Fault
     if not len(once):
         return None, faults
     shapes = [polygon(rings[at]) for at in once.tolist()]
-    others = [*(polygon(rings[at]) for at in missing), *(shapely.make_valid(polygon(each)) for each in plan.uncut)]
+    others = [
+        *(polygon(rings[at]) for at in missing),
+        *(shapely.make_valid(polygon(each.contour)) for each in plan.uncut),
+    ]
     loops = [closed[at] for at in once.tolist()]
     gap_um = max(loop.gap_um for loop in loops)
     depth = _depths([*shapes, *others])[: len(loops)]

@@ -3,7 +3,7 @@
 Pictures say what is drawn where; a backend makes pixels (`sim.show.draw.raster`) or SVG (`sim.show.draw.svg`) of it.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager
 from typing import Protocol
 
@@ -61,6 +61,15 @@ def arrow_head(tip: Floats, direction: Floats, size: float) -> Floats:
     side = np.array([-direction[1], direction[0]])
     back = tip - size * direction
     return np.array([tip, back + 0.36 * size * side, tip - 0.75 * size * direction, back - 0.36 * size * side])
+
+
+def dashes_along(points: Floats, dash: float, gap: float) -> Iterator[Floats]:
+    """Dashes (k, 2) along a curve of `points`, (n, 2), whatever its chords; none where it has no length."""
+    before = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
+    for start in np.arange(0.0, before[-1], dash + gap).tolist():
+        end = min(start + dash, float(before[-1]))
+        at = np.concatenate([[start], before[(before > start) & (before < end)], [end]])
+        yield np.stack([np.interp(at, before, points[:, axis]) for axis in (0, 1)], axis=1)
 
 
 def dashes(points: Floats, dash: float, gap: float) -> Floats:

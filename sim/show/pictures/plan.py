@@ -12,9 +12,9 @@ import numpy as np
 from parser.findings.catalogue import Language
 from parser.geometry.curves import Curves, Floats
 from parser.units import mm
-from sim.make.cam.model import CutPlan, FigureCut
+from sim.make.cam.model import CutPlan, FigureCut, Uncut
 from sim.show.draw import style
-from sim.show.draw.canvas import Canvas
+from sim.show.draw.canvas import Canvas, dashes_along
 from sim.show.draw.flatten import CHORD_PX, bounds_um, flatten, simplify
 from sim.show.draw.layout import BESIDE_PLOT, Box, Page, View, page_for
 from sim.show.draw.legend import (
@@ -55,6 +55,7 @@ def line_px(curves: Curves, view: View) -> Floats:
 def plan_bounds_um(plan: CutPlan) -> Floats:
     """Box around all that is shown, (2, 2), at least 0.1 mm wide."""
     boxes = [bounds_um(curve) for cut in plan.cuts for curve in _curves(cut) if len(curve)]
+    boxes += [bounds_um(each.contour) for each in plan.uncut]
     places = np.array([cut.thread.place_um for cut in plan.cuts])
     low = np.min([*(box[0] for box in boxes), *places], axis=0)
     high = np.max([*(box[1] for box in boxes), *places], axis=0)
@@ -88,6 +89,7 @@ _TAB_WIDTH: Final = 4.5
 _THREAD: Final = 17.0  # radius of the disc that has the number
 _AXES: Final = 60.0  # labels of the X axis above the legend
 _ABOVE: Final = 32.0  # the number of a figure above the middle of the disc
+_UNCUT_WIDTH: Final = 2.5
 _CROWDED: Final = 60  # figures; of more, the discs are smaller and have no numbers
 
 
@@ -124,8 +126,12 @@ def _draw_areas(canvas: Canvas, page: Page, plan: CutPlan) -> None:
 
 
 def _draw_ways(canvas: Canvas, page: Page, plan: CutPlan) -> None:
-    """Passes, the later ones on top, their contours, leads and tabs; and the jumps between figures."""
+    """Passes, the later ones on top, their contours, leads and tabs; what is not cut, and the jumps between figures."""
     unit = page.unit
+    for uncut in plan.uncut:
+        ring = line_px(uncut.contour, page.view)
+        for line in dashes_along(ring, style.DASH * unit, style.DASH_GAP * unit):
+            canvas.polyline(line, _paint_of(plan, uncut), _UNCUT_WIDTH * unit)
     for cut in plan.cuts:
         for number, pass_ in enumerate(cut.passes, start=1):
             width = min(_PASS_WIDTH * _WIDER ** (len(cut.passes) - number), _WIDEST)
@@ -138,6 +144,10 @@ def _draw_ways(canvas: Canvas, page: Page, plan: CutPlan) -> None:
         _stroke(canvas, line_px(cut.figure.contour, page.view), Paint.IDEAL, style.IDEAL_WIDTH * unit)
     places = page.view.to_px(np.array([cut.thread.place_um for cut in plan.cuts]))
     canvas.dashed(places, Paint.JUMP, style.JUMP_WIDTH * unit, style.DASH * unit, style.DASH_GAP * unit)
+
+
+def _paint_of(plan: CutPlan, uncut: Uncut) -> Paint:
+    return Paint.WARNING if plan.is_to_check(uncut.why) else Paint.GREY
 
 
 def _draw_order(canvas: Canvas, page: Page, plan: CutPlan, say: Words) -> None:
@@ -185,6 +195,10 @@ def _entries(plan: CutPlan, say: Words) -> list[Entry]:
         ("hole" in kinds, Entry(swatch(Paint.SLUG, Paint.SLUG_EDGE, style.EDGE_WIDTH), say("program.plan-waste"))),
         (True, Entry(stroke(Paint.IDEAL, style.IDEAL_WIDTH), say("program.plan-contour"))),
         *((True, entry) for entry in _pass_entries(plan.cuts, say)),
+        *(
+            (any(_paint_of(plan, uncut) is paint for uncut in plan.uncut), Entry(dashes(paint, _UNCUT_WIDTH), say(key)))
+            for paint, key in ((Paint.GREY, "program.plan-not-picked"), (Paint.WARNING, "program.plan-uncut"))
+        ),
         (any(map(_has_leads, plan.cuts)), Entry(stroke(Paint.ACTUAL, _LEAD_WIDTH), say("program.plan-lead"))),
         (any(cut.cut_off for cut in plan.cuts), Entry(stroke(Paint.PAUSE, _TAB_WIDTH), say("program.plan-tab"))),
         (len(plan.cuts) > 1, Entry(dashes(Paint.JUMP, style.JUMP_WIDTH), say("cut.jump"))),

@@ -142,11 +142,11 @@ def print_made(done: MadeProgram, name: Path, where: str, picture: Path | None, 
     if done.proof is not None:
         for line in proof_lines(done, str(name), language, width):
             say(line)
-    if picture is not None:
-        say(words("program.written", out=picture))
     for text in to_check(done.plan, language):
         for line in wrapped(text, width, "", _INDENT):
             say(styled(line, COLOURS["to-check"]))
+    if picture is not None:
+        say(words("program.written", out=picture))
     for line in wrapped(words(f"program.{where}", out=name), width, "", _INDENT):
         say(line)
 
@@ -249,7 +249,7 @@ def _left_out(left_out: tuple[LeftOut, ...], words: Words) -> Iterator[str]:
         for excluded in ones:
             kinds[excluded.entity.kind] += 1
         counted = listed(same(f"{number:,} {printable(kind)}") for kind, number in kinds.items())
-        places = tuple(excluded.place_um for excluded in ones if excluded.place_um is not None)
+        places = tuple(dict.fromkeys(excluded.place_um for excluded in ones if excluded.place_um is not None))
         text = bilingual("program.left-out", what=counted, why=_why(ones))
         yield getattr(_with_places(text, places), words.language)
 

@@ -1,8 +1,9 @@
 """What pictures are drawn on: areas, SVG that any reader takes, paints in both themes, and texts in both languages."""
 
+import math
 import re
 import xml.etree.ElementTree as ET
-from itertools import combinations
+from itertools import combinations, pairwise
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ import shapely
 from everything import everything, square
 from recorder import Recorder
 
+from sim.show.draw.canvas import dashes_along
 from sim.show.draw.chart import AxisRange, Chart, draw_band, draw_chart, draw_level, draw_line, range_of, tick_texts
 from sim.show.draw.layout import Box
 from sim.show.draw.raster import Raster
@@ -225,3 +227,15 @@ def test_a_line_that_needs_very_many_places_keeps_them() -> None:
     drawn = np.array([place.split(",") for place in data.split("L")], dtype=float)
     assert shapely.hausdorff_distance(shapely.LineString(drawn), shapely.LineString(hatch)) < 1.1  # px
     assert len(drawn) > MOST_PLACES
+
+
+def test_dashes_along_a_curve_do_not_begin_anew_at_its_corners() -> None:
+    angle = np.linspace(0.0, 2.0 * np.pi, 721)
+    ring = 100.0 * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    made = [*dashes_along(ring, 9.0, 5.0)]
+    lengths = [float(np.hypot(*np.diff(line, axis=0).T).sum()) for line in made]
+    assert len(made) == math.ceil(200.0 * math.pi / 14.0)
+    assert lengths[:-1] == pytest.approx([9.0] * (len(made) - 1), abs=0.01)
+    between = [float(np.hypot(*(after[0] - this[-1]))) for this, after in pairwise(made)]
+    assert between == pytest.approx([5.0] * (len(made) - 1), abs=0.01)
+    assert not [*dashes_along(ring[:1], 9.0, 5.0)]

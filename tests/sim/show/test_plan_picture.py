@@ -15,6 +15,7 @@ from sim.make.cam.maker import planned
 from sim.make.cam.model import CutPlan
 from sim.setup.machine.machine import load_machine
 from sim.setup.making import Making
+from sim.setup.picks import pick_of
 from sim.setup.scenario import Scenario
 from sim.show.draw.sheet import drawing, pixels
 from sim.show.draw.style import DARK, LIGHT, Paint
@@ -82,3 +83,20 @@ def test_another_wire_has_another_pass(tmp_path: Path) -> None:
     wide = replace(SCENARIO, wire=replace(SCENARIO.wire, diameter_um=280.0))
     one = planned(drawn(tmp_path, plate), Making(), wide)
     assert "offset 0.150 mm" in draw_plan(drawing(1200), one).document("plan", 1200)
+
+
+def test_what_is_not_cut_is_dashed_in_the_colour_of_what_it_is(tmp_path: Path) -> None:
+    def draw(space: Modelspace) -> None:
+        plate(space)
+        space.add_lwpolyline([(20, 0), (30, 0), (30, 8), (20, 8), (20, 0.2)])
+
+    path = drawn(tmp_path, draw)
+    for making, there, said in (
+        (Making(), Paint.WARNING, "not cut: to be checked"),
+        (Making(picks=(pick_of("0,0..13,9", ""),)), Paint.GREY, "not picked"),
+    ):
+        one = planned(path, making, SCENARIO)
+        text = draw_plan(drawing(1200), one).document("plan", 1200)
+        assert said in text
+        assert plan_bounds_um(one)[1, 0] >= 30_000.0
+        assert (np.asarray(draw_plan(pixels(1200), one).image()) == LIGHT[there]).all(axis=-1).sum() > 300
