@@ -1,8 +1,9 @@
 """The page of drycut open in a real browser: a program comes in, is seen, edited, mended and saved."""
 
 import json
+import re
 import zipfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,7 +11,8 @@ import pytest
 from axe import needs_axe, violations
 from browser import Browsers
 from drawings_dxf import drawn
-from open_tab import tab
+from ezdxf.layouts import Modelspace
+from open_tab import Tab, tab
 from opened_page import OpenedPage, Recorder, opened_page
 from page_checks import complaints
 from places import ROOT
@@ -20,6 +22,15 @@ if TYPE_CHECKING:
 
 WRONG = "B9900B0B39600GXNR1\nDD\n"
 KEYHOLE = ROOT / "scenarios" / "keyhole" / "program.3b"
+PUNCH = """B0B900B900GYL4
+B10100B0B10100GXL1
+B0B10200B10200GYL4
+B20200B0B20200GXL3
+B0B10200B10200GYL2
+B10100B0B10100GXL1
+B0B900B900GYL2
+DD
+"""
 MARKUP = '<img src=x onerror="document.title=1"><script>document.title=2</script>'
 
 
@@ -428,6 +439,60 @@ def test_a_second_program_is_compared_with_the_one_that_was_open(browsers: Brows
 
 
 @pytest.mark.deeper
+def places_of(shown: Tab) -> Callable[[float, float], tuple[float, float]]:
+    """Where on the page places of the picture lie, mm, by what is read where the pointer is."""
+    box = shown.page.locator("#picture").bounding_box()
+    assert box
+    read = []
+    for share in (0.4, 0.6):
+        place = box["x"] + share * box["width"], box["y"] + share * box["height"]
+        shown.page.mouse.move(*place)
+        said = shown.page.inner_text("#reading-cursor")
+        read.append((place, [float(each) for each in re.findall(r"-?[\d.]+", said)]))
+    (this, at), (other, to) = read
+    scale = [(there - here) / (mm - own) for here, there, own, mm in zip(this, other, at, to, strict=True)]
+    return lambda x, y: (this[0] + scale[0] * (x - at[0]), this[1] + scale[1] * (y - at[1]))
+
+
+def test_what_is_clicked_in_the_picture_is_cut_alone(browsers: Browsers, empty: OpenedPage, tmp_path: Path) -> None:
+    def two(space: Modelspace) -> None:
+        for x in (0, 20):
+            space.add_lwpolyline([(x, 0), (x + 4, 0), (x + 4, 4), (x, 4)], close=True)
+
+    with tab(browsers, empty.address) as shown:
+        page = shown.page
+        page.set_input_files("#pick", drawn(tmp_path, two))
+        page.wait_for_selector("#drawing:not([hidden])")
+        page.wait_for_selector("#drawing-told:empty", state="attached")
+        at = places_of(shown)
+        for x, picked in ((22, 1), (2, 2), (2, 1)):  # a second click on a mark takes it back
+            page.mouse.click(*at(x, 2))
+            assert len([each for each in page.input_value("#picks").split(";") if each]) == picked
+        page.click("#make")
+        shown.waits_for("pass")
+        assert "not picked" in page.inner_text("#drawing-told")
+        page.click("#away")
+        assert page.input_value("#picks") == ""
+
+
+def test_beneath_a_program_a_click_picks_the_place_of_the_drawing(browsers: Browsers, tmp_path: Path) -> None:
+    """The plate lies at (30, 40) mm in the drawing, and at (−10, −11) in the program."""
+
+    def plate(space: Modelspace) -> None:
+        space.add_lwpolyline([(30, 40), (50, 40), (50, 50), (30, 50)], close=True)
+
+    punch = tmp_path / "punch.3b"
+    punch.write_text(PUNCH, "ascii")
+    with opened_page(punch) as served, tab(browsers, served.address) as shown:
+        shown.waits_for("pass")
+        shown.page.set_input_files("#pick", drawn(tmp_path, plate))
+        shown.page.wait_for_selector("#drawing:not([hidden])")
+        shown.page.wait_for_selector("#drawing-told:empty", state="attached")
+        shown.page.mouse.click(*places_of(shown)(0, -6))
+        x, y = shown.page.input_value("#picks").split(",")
+        assert (float(x), float(y)) == pytest.approx((40.0, 45.0), abs=0.2)  # a px is some 0.03 mm
+
+
 def test_a_drawing_is_dropped_made_a_program_and_run_against(
     browsers: Browsers, empty: OpenedPage, tmp_path: Path
 ) -> None:

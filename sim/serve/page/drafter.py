@@ -5,6 +5,7 @@ large.
 """
 
 import json
+import re
 from pathlib import Path
 from typing import Any, Final
 
@@ -14,7 +15,7 @@ from parser.findings.catalogue import LANGUAGES, Bilingual, Language, remark_tex
 from parser.findings.errors import DrycutError, Message, SettingsError
 from parser.program import load_program, moving
 from parser.toolpath import Toolpath
-from parser.units import from_mm
+from parser.units import from_mm, mm
 from sim.make.cam.maker import MadeProgram, made_program, remarked, wanted_of
 from sim.measure.compare.compare import compare_program
 from sim.measure.compare.result import FitRequest
@@ -27,26 +28,48 @@ from sim.serve.page.form import number_of, offsets_um, scenario_of
 from sim.serve.page.model import DraftedEntry, LookedEntry
 from sim.setup.making import LANGUAGES as PROGRAM_LANGUAGES
 from sim.setup.making import OR_NONE_MM, OVERCUT_MM, Making, ToMake, refuse_odd
-from sim.setup.part import DrawingTarget
+from sim.setup.part import DRAWING_UNITS, GAP_UM, DrawingTarget
+from sim.setup.picks import pick_of
 from sim.setup.scenario import Scenario
+from sim.setup.toml.reader import Bound
 from sim.show.refusals import why_refused
 from sim.show.replay.tape import drawing_columns
 from sim.show.terminal.program import advice, against, to_check, told_lines
 from sim.show.texts import Words
 
+_JOIN_MM: Final = Bound(mm(GAP_UM.low), mm(GAP_UM.high))
+"""Of the gap whose ends are joined."""
 _WIDE: Final = 100_000
 """Cells of a line that is not to be broken."""
 
 
 def _look(request: PageRequest) -> dict[str, Any]:
     """Read the drawing, and lay it beneath the program of the page as a run with it would."""
-    target = DrawingTarget(Path(request["drawing_file"]))
-    drawing = read_drawing(target.file, gap_um=target.gap_um)
+    target = _target(request)
+    drawing = read_drawing(target.file, gap_um=target.gap_um, unit=target.unit)
     placement, notes = _placement(request, drawing, target) if request["text"].strip() else (IN_PLACE, [])
     of_drawing = [Bilingual(*(remark_text(note, language) for language in LANGUAGES)) for note in drawing.notes]
-    remarks = list(map(printable_entry, [*of_drawing, *notes]))
-    looked: LookedEntry = {"unit": drawing.unit, "curves": drawing_columns(drawing, placement), "told": remarks}
+    remarks = [printable_entry(_by_controls(each)) for each in (*of_drawing, *notes)]
+    looked: LookedEntry = {
+        "unit": drawing.unit,
+        "curves": drawing_columns(drawing, placement),
+        "placement": {
+            "turn_rad": placement.turn_rad,
+            "shift_um": list(placement.shift_um),
+            "mirror": placement.mirror,
+        },
+        "told": remarks,
+    }
     return _written_answer(request, looked)
+
+
+def _target(request: PageRequest) -> DrawingTarget:
+    """The drawing as the page has it read. SettingsError for a gap or a unit that is none."""
+    target = DrawingTarget(Path(request["drawing_file"]), unit=request["unit"] or None)
+    if target.unit not in {None, *DRAWING_UNITS}:
+        raise SettingsError("no-drawing-unit", units=", ".join(DRAWING_UNITS), found=request["unit"][:40])
+    join = request["join_mm"].strip()
+    return target._replace(gap_um=from_mm(number_of(join, _JOIN_MM, Message("name-gap")))) if join else target
 
 
 def _make(request: PageRequest) -> dict[str, Any]:
@@ -61,9 +84,10 @@ def _make(request: PageRequest) -> dict[str, Any]:
     wanted = wanted_of(to_make, to_make.language, scenario)
     done = made_program(drawing, to_make.making, wanted, scenario, progress)
     if not isinstance(done, MadeProgram):
-        why = printable_entry(why_refused(done.refusal))
+        why = printable_entry(_by_controls(why_refused(done.refusal)))
         return _written_answer(request, {"program": None, "told": [why], "verdict": "fail"})
-    lines = [Bilingual(*both) for both in zip(*(_summary(done, language) for language in LANGUAGES), strict=True)]
+    both_lines = zip(*(_summary(done, language) for language in LANGUAGES), strict=True)
+    lines = [_by_controls(Bilingual(*both)) for both in both_lines]
     data = done.data if done.is_proved else remarked(done, [*against(done, "en")], wanted).data
     drafted: DraftedEntry = {
         "program": file_text(file.name, read_file(data)),
@@ -76,7 +100,13 @@ def _make(request: PageRequest) -> dict[str, Any]:
 def _making(request: PageRequest) -> Making:
     """How it is to be made. SettingsError for numbers out of their bounds."""
     passes, tab = offsets_um(request, OR_NONE_MM), request["tab_mm"]
-    making = Making(passes_um=passes, tab_um=from_mm(number_of(tab, OVERCUT_MM, Message("name-tab"))) if tab else 0.0)
+    making = Making(
+        unit=_target(request).unit,
+        gap_um=_target(request).gap_um,
+        picks=tuple(pick_of(each.strip(), "the program") for each in request["picks"].split(";") if each.strip()),
+        passes_um=passes,
+        tab_um=from_mm(number_of(tab, OVERCUT_MM, Message("name-tab"))) if tab else 0.0,
+    )
     refuse_odd(making, "the program")
     return making
 
@@ -86,8 +116,25 @@ def _summary(done: MadeProgram, language: Language) -> list[str]:
     words = Words(language)
     proved = [words(f"program.verdict-{done.proof.verdict}")] if done.proof else []
     todo = advice(done, language, words("program.tab-control", label=words("open.tab")))
-    checked = to_check(done.plan, language)
-    return [*proved, *checked, *against(done, language), *todo, *told_lines(done.plan, language, _WIDE)]
+    checked = [*to_check(done.plan, language)]
+    first = [*checked, *proved] if done.is_proved else [*proved, *checked]
+    return [*first, *against(done, language), *todo, *told_lines(done.plan, language, _WIDE)]
+
+
+_CONTROLS: Final = {"--gap": "open.join", "--pick": "open.picks", "--drawing-unit": "open.unit"}
+"""Options of the command line that the page has a control for, and its label."""
+
+
+def _by_controls(said: Bilingual) -> Bilingual:
+    """What is said, with the labels of the page's controls in place of options."""
+    for option, label in _CONTROLS.items():
+        said = Bilingual(
+            *(
+                re.sub(rf"{option}(?![\w-])", f"“{Words(language)(label)}”", text)
+                for text, language in zip(said, LANGUAGES, strict=True)
+            )
+        )
+    return said
 
 
 def _placement(request: PageRequest, drawing: Drawing, target: DrawingTarget) -> tuple[Placement, list[Bilingual]]:

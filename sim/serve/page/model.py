@@ -27,11 +27,20 @@ class FileTextEntry(TypedDict):
     why: NotRequired[Annotated[SaidEntry, "what was to be open at the start could not be"]]
 
 
+class PlacementEntry(TypedDict):
+    """Where a drawing lies beneath a program: mirrored, x to −x, then turned about (0, 0), then shifted."""
+
+    turn_rad: float
+    shift_um: Point
+    mirror: bool
+
+
 class LookedEntry(TypedDict):
     """A drawing: its curves as they lie beneath the program, and what there is to say; else why not."""
 
     unit: NotRequired[str]
     curves: NotRequired[CurvesEntry]
+    placement: NotRequired[PlacementEntry]
     told: list[SaidEntry]
     why: NotRequired[SaidEntry | None]
 

@@ -5,10 +5,11 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Final
 
+from parser.drawing.model import DEFAULT_GAP_UM
 from parser.units import mm
 from sim.setup.machine.machine import machine_names
 from sim.setup.making import LANGUAGES
-from sim.setup.part import OFFSET_MM
+from sim.setup.part import DRAWING_UNITS, OFFSET_MM
 from sim.setup.scenario import DEFAULT_MACHINE
 from sim.setup.settable import FIELDS
 from sim.setup.wire import DEFAULT_WIRE
@@ -33,6 +34,8 @@ def open_page(starts: Sequence[str]) -> tuple[str, str]:
         nonce=nonce,
         machines=machine_names(),
         languages=LANGUAGES,
+        units=DRAWING_UNITS,
+        join=f"{mm(DEFAULT_GAP_UM):g}",
         default_machine=DEFAULT_MACHINE,
         fields=FIELDS,
         offset_mm=OFFSET_MM,

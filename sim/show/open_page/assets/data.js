@@ -131,8 +131,17 @@
  * @typedef {object} Looked
  * @property {string} [unit]
  * @property {Curves} [curves]
+ * @property {Placement} [placement]
  * @property {Said[]} told
  * @property {Said | null} [why]
+ */
+
+/**
+ * Where a drawing lies beneath a program: mirrored, x to −x, then turned about (0, 0), then shifted.
+ * @typedef {object} Placement
+ * @property {number} turn_rad
+ * @property {Place} shift_um
+ * @property {boolean} mirror
  */
 
 /**

@@ -2,6 +2,7 @@
 import * as asked from "./asked.js";
 import { element, make } from "../../html/assets/elements.js";
 import * as language from "../../html/assets/language.js";
+import { IN_PLACE, laid, lifted } from "./picks.js";
 
 /** @import { Said } from "../../html/assets/language.js" */
 /** @import { Curves } from "../../replay/assets/document.js" */
@@ -15,6 +16,7 @@ import * as language from "../../html/assets/language.js";
  * @property {(coming: Promise<RunState>) => void} follow shows how far a job is
  * @property {(read: FileText) => void} begin opens a program
  * @property {(curves: Curves | null) => void} beneath draws it under the path
+ * @property {(places: [x: number, y: number][]) => void} picked marks what is picked
  * @property {(key: string) => void} tell says what went wrong
  */
 
@@ -29,6 +31,10 @@ export function wireDrawing(around) {
   const written = element("#as", HTMLSelectElement);
   const passes = element("#passes", HTMLInputElement);
   const tab = element("#tab", HTMLInputElement);
+  const picks = element("#picks", HTMLInputElement);
+  const join = element("#join", HTMLInputElement);
+  const unit = element("#unit", HTMLSelectElement);
+  let placement = IN_PLACE;
   let number = "";
   let making = "";
   /**
@@ -45,14 +51,36 @@ export function wireDrawing(around) {
   /** Show which drawing there is, and what was told of it. */
   function show() {
     name.textContent = number ? file : language.say("no-drawing");
-    buttons.hidden = element("#drawn", HTMLElement).hidden = !number;
+    buttons.hidden = element("#drawn", HTMLElement).hidden = element("#picks-hint", HTMLElement).hidden = !number;
+    around.picked(number ? placesOfPicks().map(([x, y]) => laid(placement, [1000 * x, 1000 * y])) : []);
     if (!made.length) list.className = "";
     list.replaceChildren(...(made.length ? made : seen).map((said) => make("li", {}, language.pick(said))));
   }
 
+  /** What is picked, one by one. */
+  function listOfPicks() {
+    return picks.value.split(";").map((each) => each.trim()).filter(Boolean);
+  }
+
+  /**
+   * Places of the drawing that are picked, mm.
+   * @returns {[x: number, y: number][]}
+   */
+  function placesOfPicks() {
+    return listOfPicks().flatMap((each) => {
+      const [, x, y] = /^(-?[\d.]+),(-?[\d.]+)$/.exec(each) ?? [];
+      return x && y ? [[Number(x), Number(y)]] : [];
+    });
+  }
+
+  /** How it is read. */
+  function reading() {
+    return { join_mm: join.value.trim(), unit: unit.value };
+  }
+
   /** Take the drawing away. */
   function away() {
-    number = "";
+    number = picks.value = "";
     made = seen = [];
     around.beneath(null);
     show();
@@ -66,10 +94,11 @@ export function wireDrawing(around) {
     seen = [language.said("stage-drawing")];
     show();
     try {
-      const found = await asked.look({ ...around.values(), ...around.current(), drawing: number });
+      const found = await asked.look({ ...around.values(), ...around.current(), ...reading(), drawing: number });
       if (before !== number) return;
       if (found.curves) {
         seen = found.told;
+        placement = found.placement ?? IN_PLACE;
         around.beneath(found.curves);
       } else {
         away();
@@ -85,12 +114,28 @@ export function wireDrawing(around) {
   element("#make", HTMLElement).addEventListener("click", () => {
     // Its offsets are worked into the program; those of the form of the run a controller would add to them.
     making = number;
-    const own = { language: written.value, offset_mm: passes.value.trim(), tab_mm: tab.value.trim() };
+    const own = { language: written.value, offset_mm: passes.value.trim(), tab_mm: tab.value.trim(), picks: picks.value, ...reading() };
     around.follow(asked.draft({ ...around.values(), drawing: number, ...own }));
   });
+  for (const field of [join, unit]) field.addEventListener("change", look);
+  picks.addEventListener("input", show);
   language.onChange(show);
 
   return {
+    /**
+     * Pick what lies at a place of the picture, µm, or take the pick near it back; whether a drawing is to be picked of.
+     * @param {[x: number, y: number]} place
+     * @param {number} nearUm
+     */
+    pick(place, nearUm) {
+      if (!number || element("#panel-drawing", HTMLElement).hidden) return false;
+      const [x, y] = lifted(placement, place).map((um) => (um / 1000).toFixed(3));
+      const near = placesOfPicks().find((mm) => Math.hypot(1000 * (mm[0] - Number(x)), 1000 * (mm[1] - Number(y))) < nearUm);
+      const others = near && listOfPicks().filter((each) => each !== `${near[0].toFixed(3)},${near[1].toFixed(3)}`);
+      picks.value = (others ?? [...listOfPicks(), `${x},${y}`]).join("; ");
+      show();
+      return true;
+    },
     /** Its number; empty where there is none. */
     number: () => number,
     look,
@@ -100,7 +145,8 @@ export function wireDrawing(around) {
      * @param {string} newFile
      */
     async take(newNumber, newFile) {
-      [number, file, made] = [newNumber, newFile, []];
+      [number, file, made, placement] = [newNumber, newFile, [], IN_PLACE];
+      picks.value = "";
       element("#tab-drawing", HTMLElement).click();
       show();
       await look();
@@ -119,7 +165,7 @@ export function wireDrawing(around) {
           around.begin(program);
         }
         made = told;
-        list.className = verdict === "pass" ? "proved" : "unproved";
+        list.className = verdict === "pass" ? "proved" : verdict === "to-check" ? "doubted" : "unproved";
         show();
       } catch {
         around.tell("no-server");

@@ -27,7 +27,7 @@ const mendAll = element("#mend-all", HTMLButtonElement);
 const status = wireStatus();
 const form = wireForm((isRead) => (isRead ? recheck() : showForm()));
 const picture = pictureOf(element("#picture", HTMLCanvasElement), {
-  block: goToBlock, hover: (place, row) => watching.hover(place, row),
+  block: goToBlock, hover: (place, row) => watching.hover(place, row), place: (place, nearUm) => drawing.pick(place, nearUm),
 });
 const text = textOf(element("#text", HTMLTextAreaElement), element("#lines", HTMLElement), (line) => {
   picture.markLine(line);
@@ -62,6 +62,7 @@ const drawing = wireDrawing({
     picture.beneath(curves);
     show();
   },
+  picked: picture.pick,
   tell,
 });
 const files = wireFiles({

@@ -8,6 +8,7 @@ import { pathOf } from "../../replay/assets/path.js";
 import { penOf } from "../../replay/assets/pen.js";
 import { differing } from "./differing.js";
 import { wireMeasuring } from "./measuring.js";
+import { drawPicks } from "./picks.js";
 import { rowAt } from "./snap.js";
 import { drawAxes, drawBand, drawPlayed } from "./under_path.js";
 import { drawWire } from "../../replay/assets/wire.js";
@@ -30,6 +31,8 @@ const STILL = 4; // px of a press that is a click
  * @param {HTMLCanvasElement} canvas
  * @param {object} on
  * @param {(row: number) => void} on.block told the row of a block that is clicked
+ * @param {(place: [x: number, y: number], nearUm: number) => boolean} on.place told a place that is clicked, and how far
+ *   off still means it; whether it is taken, so that no block is
  * @param {(place: [x: number, y: number] | null, row: number) => void} on.hover told where the pointer is, and over which
  *   block; −1 over none, null where it has left
  */
@@ -48,6 +51,8 @@ export function pictureOf(canvas, on) {
   let figures = [];
   /** @type {Finding[]} */
   let findings = [];
+  /** @type {[x: number, y: number][]} */
+  let picks = [];
   let line = 0;
   let isAsked = false;
   let isFitted = false;
@@ -152,6 +157,7 @@ export function pictureOf(canvas, on) {
     else if (drawn) drawBand(pen, view, drawn, 2 * reachUm, shades);
     if (drawn) drawProgram(drawn, shades);
     if (shown?.moment.t) drawWire(pen, view, shown.moment, 0, shown.show.wireUm, colours);
+    drawPicks(pen, view, picks, shades.accent);
     measuring.draw(pen, shades.accent);
     drawScaleBar(pen, view, colours);
   }
@@ -229,6 +235,7 @@ export function pictureOf(canvas, on) {
       measuring.click(x, y);
       return;
     }
+    if (on.place(view.placeOf(x, y), NEAR / view.scale)) return;
     const row = path && drawn ? rowAt(path, drawn, view.placeOf(x, y), NEAR / view.scale) : -1;
     if (row >= 0) on.block(row);
   });
@@ -312,6 +319,14 @@ export function pictureOf(canvas, on) {
     beneath(curves) {
       drawing = curves && pathOf(curves);
       isFitted = false;
+      later();
+    },
+    /**
+     * Mark what is picked of the drawing.
+     * @param {[x: number, y: number][]} places
+     */
+    pick(places) {
+      picks = places;
       later();
     },
     fit() {

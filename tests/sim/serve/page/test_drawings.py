@@ -86,8 +86,7 @@ def made(drawing: Path, result: Path, **values: str) -> Any:
 
 def draft(served: OpenedPage, number: str, **values: str) -> Any:
     """The state once a program of a drawing is made, or is not."""
-    told = dict.fromkeys(("machine", "thickness_mm", "wire_mm", "gap_mm", "offset_mm", "tab_mm"), "")
-    told["language"] = "3b"
+    told = {**dict.fromkeys(MAKE_KEYS, ""), "language": "3b"}
     assert served.ask("draft", json.dumps({**told, "drawing": number, **values})).status == 200
     return ended(served)
 
@@ -201,7 +200,7 @@ def test_a_name_leads_nowhere_and_numbers_that_are_none_get_nothing(
 ) -> None:
     number, found = came_oddly
     assert found["curves"]["kind"] == ["line"] * 4
-    told = dict.fromkeys(("name", "text", "machine", "thickness_mm", "wire_mm", "gap_mm", "offset_mm", "side"), "")
+    told = dict.fromkeys(LOOK_KEYS, "")
     for wrong in ("999", "-1", "", "../0", "9" * 5000):
         assert served.ask("look", json.dumps({**told, "drawing": wrong})).status == 404
         assert served.ask("drafted", json.dumps({"drawing": wrong})).status == 404
@@ -214,3 +213,45 @@ def test_a_drawing_can_be_what_is_opened(tmp_path: Path) -> None:
         first = json.loads(served.ask("first").body)
         assert (first["name"], first["text"]) == ("part.dxf", "")
         assert look(served, first["drawing"])["curves"]["kind"] == ["line"] * 4
+
+
+def crossed_plate(space: Modelspace) -> None:
+    """A plate with two holes that cross, one that does not, and a disc with a gap of 0.3 mm."""
+    space.add_lwpolyline([(0, 0), (20, 0), (20, 10), (0, 10)], close=True)
+    for x in (4, 12, 14):
+        space.add_circle((x, 5), 2)
+    space.add_lwpolyline([(30, 0.3), (30, 10), (40, 10), (40, 0), (30, 0)])
+
+
+def test_what_is_not_cut_makes_a_program_to_be_checked_and_names_the_controls_of_the_page(tmp_path: Path) -> None:
+    told = made(drawn(tmp_path, crossed_plate), tmp_path / "made.json")
+    assert told["verdict"] == "to-check"
+    assert told["told"][0]["en"].startswith("to be checked: 3 curves")
+    said = " ".join(each["en"] + each["zh"] for each in told["told"])
+    assert "“join gaps up to mm” joins" in said
+    assert "“只切” 选其一" in said
+    assert not [option for option in ("--gap", "--pick", "--drawing-unit") if option in said]
+
+
+def test_what_is_picked_is_cut_with_the_gap_and_the_unit_of_the_page(tmp_path: Path) -> None:
+    path = drawn(tmp_path, crossed_plate)
+    told = made(path, tmp_path / "made.json", picks="4,5; 35,5", join_mm="0.4")
+    assert told["verdict"] == "pass"
+    assert "GXL" in told["program"]["text"]
+    small = made(path, tmp_path / "made.json", picks="0.004,0.005", unit="micron")
+    assert small["verdict"] == "fail"
+
+
+@pytest.mark.parametrize("values", [{"unit": "ell"}, {"join_mm": "wide"}, {"join_mm": "-1"}, {"picks": "the hole"}])
+def test_what_no_drawing_is_read_by_is_refused(tmp_path: Path, values: dict[str, str]) -> None:
+    with pytest.raises(SettingsError):
+        made(drawn(tmp_path, crossed_plate), tmp_path / "made.json", **values)
+
+
+def test_a_look_says_where_the_drawing_lies(tmp_path: Path) -> None:
+    path = drawn(tmp_path, crossed_plate)
+    assert looked(path, "", tmp_path / "look.json")["placement"] == {
+        "turn_rad": 0.0,
+        "shift_um": [0.0, 0.0],
+        "mirror": False,
+    }
