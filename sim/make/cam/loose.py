@@ -4,12 +4,13 @@ A contour with something missing is not cut. It still lies around others: it is 
 within it is a hole and no outline.
 """
 
+from collections.abc import Iterator
 from typing import Final, NamedTuple
 
 import numpy as np
 import shapely
 
-from parser.drawing.loops.chain import DOT_UM
+from parser.drawing.loops.chain import DOT_UM, Run, signed_areas
 from parser.drawing.model import BESIDE_UM, SAME_WITHIN_UM, Drawing, DrawnLoop, LeftOut, running
 from parser.geometry.along import directions
 from parser.geometry.curves import Bools, Curves, Floats, Ints, curves_between, joined
@@ -20,6 +21,8 @@ from sim.make.cam.contours import Contours
 _ALMOST_UM: Final = 1000.0
 """Loose ends this near are meant to meet: no drawing leaves a contour open by less on purpose (assumed)."""
 _ALMOST_OF_LENGTH: Final = 0.4  # a bent chain open by less of its length is meant to close (assumed)
+_AROUND_OF_LENGTH: Final = 0.75
+"""A bent chain open by less of its length lies around what its ends and it enclose: two sides of a square by 0.71."""
 _LONGER: Final = 4.0  # times as long as they lie apart are curves that are meant to meet; strokes of a mark are not
 _CORNER_RAD: Final = (
     0.1  # a contour that turns by more at a place may as well have gone on along a line that ends there
@@ -42,6 +45,8 @@ class Loose(NamedTuple):
         Each of them, and why: ``almost-closed``, ``divides``, ``dot``, ``open``.
     almost
         Contours that they are with something missing, closed by lines.
+    around
+        Open chains that lie around something, closed by lines: whether what lies within is a hole nobody can tell.
     gaps_um
         (k, 2) the middles of all that is missing in them.
     divided
@@ -50,6 +55,7 @@ class Loose(NamedTuple):
 
     left_out: tuple[LeftOut, ...] = ()
     almost: tuple[Closing, ...] = ()
+    around: tuple[Curves, ...] = ()
     gaps_um: Floats = np.empty((0, 2))
     divided: frozenset[int] = frozenset()
 
@@ -103,7 +109,10 @@ def loose_of(drawing: Drawing, loops: list[DrawnLoop], contours: Contours | None
         )
     ends = chains.end_um.reshape(-1, 2)
     gaps_um = 0.5 * (ends[links.end] + ends[links.mate])
-    return Loose(tuple(left_out), tuple(_closed(chains, loops, links)), gaps_um, divided)
+    is_open = np.isinf(apart) & ~divides
+    return Loose(
+        tuple(left_out), tuple(_closed(chains, loops, links)), tuple(_around(chains, is_open)), gaps_um, divided
+    )
 
 
 def _chains(drawing: Drawing, loops: list[DrawnLoop]) -> _Chains:
@@ -173,8 +182,15 @@ def _closed(chains: _Chains, loops: list[DrawnLoop], links: _Links) -> list[Clos
     return found
 
 
+def _around(chains: _Chains, is_open: Bools) -> Iterator[Curves]:
+    """Those of some chains that lie around something, closed by lines."""
+    chord = np.hypot(*(chains.end_um[:, 1] - chains.end_um[:, 0]).T)
+    for at in np.flatnonzero(is_open & chains.is_bent & (chord < _AROUND_OF_LENGTH * chains.length_um)).tolist():
+        yield _with_lines(chains, [2 * at])
+
+
 def _with_lines(chains: _Chains, way: list[int]) -> Curves:
-    """Chains one after the other, each run from the end of the way's number, with lines between them."""
+    """Chains one after the other, each run from the end of the way's number, lines between them; counter-clockwise."""
     parts: list[Curves] = []
     for end in way:
         ran = chains.ran[end // 2]
@@ -184,7 +200,10 @@ def _with_lines(chains: _Chains, way: list[int]) -> Curves:
         curves_between(this.end_um[-1:], after.start_um[:1], np.full((1, 2), np.nan), np.zeros(1))
         for this, after in zip(parts, [*parts[1:], parts[0]], strict=True)
     ]
-    return joined([each for pair in zip(parts, lines, strict=True) for each in pair])
+    ring = joined([each for pair in zip(parts, lines, strict=True) for each in pair])
+    rows = np.arange(len(ring))
+    run = Run(rows, rows < 0, np.zeros_like(rows), np.array([True]))
+    return ring if signed_areas(ring, run)[0] >= 0.0 else running(ring, rows[::-1], rows >= 0)
 
 
 def _dividing(

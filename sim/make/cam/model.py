@@ -260,6 +260,7 @@ UNCUT: Final = (
     "divided",
     "divides",
     "falls-apart",
+    "half-around",
     "narrow-neck",
     "narrow-slot",
     "no-room",

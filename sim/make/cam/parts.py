@@ -5,14 +5,14 @@ so is one that nobody picked. All contours count in how they lie within each oth
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Final, NamedTuple
 
 import numpy as np
 
 from parser.drawing.loops.chain import flat_loops
 from parser.drawing.model import BESIDE_UM, SAME_WITHIN_UM, Drawing, DrawnLoop, Entity, LeftOut, running
-from parser.geometry.curves import Bools, Floats, Ints, extents, joined
+from parser.geometry.curves import Bools, Curves, Floats, Ints, extents, is_inside, joined
 from parser.geometry.near import nearest_um
 from parser.toolpath import Point
 from parser.units import mm
@@ -67,6 +67,8 @@ def parts_of(drawing: Drawing, making: Making) -> Parts:
     wanted = picked(_pickable(drawing, found, nested), making.picks) if making.picks else found.is_whole
     why = {at: _Uncertain("not-picked") for at in np.flatnonzero(found.is_whole & ~wanted).tolist()}
     why |= _uncertain(found, wanted, touching, loose.divided, within)
+    if making.side == "nesting":
+        why = {**_half_around(found, wanted, loose.around), **why}
     is_cut = found.is_whole.copy()
     is_cut[list(why)] = False
     if not is_cut.any():
@@ -114,6 +116,17 @@ def _uncertain(
     for at in np.flatnonzero(wanted & np.isin(found.number, list(divided))).tolist():
         why.setdefault(at, _Uncertain("divided"))
     return why
+
+
+def _half_around(found: _Found, wanted: Bools, around: Sequence[Curves]) -> dict[int, _Uncertain]:
+    """Contours that are wanted (l,) and lie within open chains, closed by lines: they may be holes."""
+    start = np.array([_start(found, at) for at in range(len(found.loops))])
+    within = np.zeros(len(start), dtype=np.bool_)
+    for ring in around:
+        low, high = (each for each in extents(ring))
+        near = np.flatnonzero(((start > low.min(axis=0)) & (start < high.max(axis=0))).all(axis=1))
+        within[near[is_inside(ring, start[near])]] = True
+    return {at: _Uncertain("half-around") for at in np.flatnonzero(within & wanted).tolist()}
 
 
 def _uncut_said(drawing: Drawing, found: _Found, why: dict[int, _Uncertain]) -> Iterator[LeftOut]:
