@@ -260,6 +260,7 @@ UNCUT: Final = (
     "divided",
     "divides",
     "falls-apart",
+    "frame",
     "half-around",
     "narrow-neck",
     "narrow-slot",

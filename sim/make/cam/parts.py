@@ -18,6 +18,7 @@ from parser.toolpath import Point
 from parser.units import mm
 from sim.make.cam.contacts import Contacts, contacts, crossed, overlaps, self_contacts, spread
 from sim.make.cam.contours import Contours, Nesting, contours_of, nesting
+from sim.make.cam.frames import Boxes, frames
 from sim.make.cam.loose import Closing, Loose, loose_of
 from sim.make.cam.model import Bridge, CannotCutError, Figure, Parts, Refusal, Uncut
 from sim.make.cam.picks import Pickable, picked
@@ -62,6 +63,8 @@ def parts_of(drawing: Drawing, making: Making) -> Parts:
         raise CannotCutError(_nothing_closed(drawing, [closed[at] for at, _ in flat], loose))
     within = BESIDE_UM + 2.0 * (0.0 if drawing.fit is None else drawing.fit.tolerance_um)
     found, again = _once(drawing, _found(closed, drawn, loose.almost), within)
+    is_frame, framing, frame_entities = _frames(drawing, found)
+    found = _picked_loops(found, ~is_frame)
     touching = contacts(found.contours)
     nested = nesting(found.contours, _places(found, touching), found.area_um2)
     wanted = picked(_pickable(drawing, found, nested), making.picks) if making.picks else found.is_whole
@@ -73,15 +76,19 @@ def parts_of(drawing: Drawing, making: Making) -> Parts:
     is_cut[list(why)] = False
     if not is_cut.any():
         raise CannotCutError(_nothing_certain(drawing, found, why))
-    return Parts(
-        _figures(drawing, found, nested, is_cut),
-        tuple(
-            Uncut(found.contours.contour(at), why[at].why if at in why else "almost-closed")
-            for at in np.flatnonzero(~is_cut).tolist()
-        ),
-        (*_left_of(drawing, making.thread_layer), *loose.left_out, *again, *_uncut_said(drawing, found, why)),
-        (),
-    )
+    reasons = {at: why[at].why if at in why else "almost-closed" for at in np.flatnonzero(~is_cut).tolist()}
+    uncut = [Uncut(found.contours.contour(at), reason) for at, reason in reasons.items()]
+    left_out = (*loose.left_out, *again, *frame_entities, *_uncut_said(drawing, found, why))
+    figures = _figures(drawing, found, nested, is_cut)
+    return Parts(figures, (*framing, *uncut), (*_left_of(drawing, making.thread_layer), *left_out), ())
+
+
+def _frames(drawing: Drawing, found: _Found) -> tuple[Bools, tuple[Uncut, ...], tuple[LeftOut, ...]]:
+    """Which contours (l,) are frames of a sheet: what lies in these is no hole."""
+    is_frame = frames(drawing, found.contours, Boxes(found.area_um2, found.low_um, found.high_um))
+    numbers = np.flatnonzero(is_frame)
+    uncut = tuple(Uncut(found.contours.contour(at), "frame") for at in numbers.tolist())
+    return is_frame, uncut, _left_out(drawing, found, numbers, "frame")
 
 
 class _Uncertain(NamedTuple):

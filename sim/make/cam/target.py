@@ -174,7 +174,7 @@ def target_of(drawn: Drawing, plan: CutPlan) -> tuple[Target | None, tuple[Fault
     shapes = [polygon(rings[at]) for at in once.tolist()]
     others = [
         *(polygon(rings[at]) for at in missing),
-        *(shapely.make_valid(polygon(each.contour)) for each in plan.uncut),
+        *(shapely.make_valid(polygon(each.contour)) for each in plan.uncut if each.why != "frame"),
     ]
     loops = [closed[at] for at in once.tolist()]
     gap_um = max(loop.gap_um for loop in loops)

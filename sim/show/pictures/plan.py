@@ -55,7 +55,7 @@ def line_px(curves: Curves, view: View) -> Floats:
 def plan_bounds_um(plan: CutPlan) -> Floats:
     """Box around all that is shown, (2, 2), at least 0.1 mm wide."""
     boxes = [bounds_um(curve) for cut in plan.cuts for curve in _curves(cut) if len(curve)]
-    boxes += [bounds_um(each.contour) for each in plan.uncut]
+    boxes += [bounds_um(each.contour) for each in plan.uncut if each.why != "frame"]
     places = np.array([cut.thread.place_um for cut in plan.cuts])
     low = np.min([*(box[0] for box in boxes), *places], axis=0)
     high = np.max([*(box[1] for box in boxes), *places], axis=0)
@@ -128,7 +128,7 @@ def _draw_areas(canvas: Canvas, page: Page, plan: CutPlan) -> None:
 def _draw_ways(canvas: Canvas, page: Page, plan: CutPlan) -> None:
     """Passes, the later ones on top, their contours, leads and tabs; what is not cut, and the jumps between figures."""
     unit = page.unit
-    for uncut in plan.uncut:
+    for uncut in (each for each in plan.uncut if each.why != "frame"):
         ring = line_px(uncut.contour, page.view)
         for line in dashes_along(ring, style.DASH * unit, style.DASH_GAP * unit):
             canvas.polyline(line, _paint_of(plan, uncut), _UNCUT_WIDTH * unit)

@@ -151,3 +151,21 @@ def test_leads_are_longer_than_the_offsets_of_layers(path: Path) -> None:
     assert isinstance(done, NotMade)
     assert done.refusal.why == "short-lead"
     assert isinstance(unproved(path, Making(passes_um=(100.0,), lead_um=200.0), TO_3B, plain_scenario()), MadeProgram)
+
+
+def test_a_part_in_a_frame_is_proved_with_the_wire_outside(tmp_path: Path) -> None:
+    """A5 upright is no sheet of a frame; A4 is, drawn by four lines, with a word in it."""
+
+    def draw(space: Modelspace) -> None:
+        corners = [(0, 0), (297, 0), (297, 210), (0, 210)]
+        for this, after in zip(corners, [*corners[1:], corners[0]], strict=True):
+            space.add_line(this, after)
+        space.add_text("PLATE", height=3.0).set_placement((250, 10))
+        space.add_lwpolyline([(100, 100), (110, 100), (110, 106), (100, 106)], close=True)
+
+    done = made_program(drawn(tmp_path, draw), Making(), TO_3B, plain_scenario())
+    assert isinstance(done, MadeProgram)
+    assert done.is_proved
+    (cut,) = done.plan.cuts
+    assert (cut.figure.kind, cut.figure.runs_inside) == ("outline", False)
+    assert [left.why for left in done.plan.to_check] == ["frame"]

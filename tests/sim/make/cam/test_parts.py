@@ -10,7 +10,7 @@ import shapely
 from drawings_dxf import points_on
 from drawn_loops import Nested, Piece, arc, as_drawn, circle, drawing_of, nested, polygon, square
 
-from parser.drawing.model import FitFigures
+from parser.drawing.model import Entity, FitFigures, LeftOut
 from parser.geometry.curves import curves_between
 from sim.make.cam.model import CannotCutError, Figure, Parts, Refusal
 from sim.make.cam.parts import parts_of
@@ -365,6 +365,43 @@ def test_a_contour_of_a_damaged_drawing_is_cut_on_its_right_side_or_not_at_all(s
     assert len(cut - wrong) == len(truth) - len(wrong) or "half-around" in told
     if wrong:
         assert told & {"almost-closed", "open", "crossing"}
+
+
+def _sheet(*entities: list[Piece], text_mm: tuple[float, float] | None = (250.0, 20.0)) -> Parts:
+    drawing = drawing_of(list(entities))
+    text = [LeftOut(Entity("TEXT", "1", "0", ""), "text", (1e3 * text_mm[0], 1e3 * text_mm[1]))] if text_mm else []
+    return parts_of(replace(drawing, left_out=(*drawing.left_out, *text)), Making())
+
+
+def _box(x: float, y: float, wide: float, high: float) -> list[Piece]:
+    return polygon([(x, y), (x + wide, y), (x + wide, y + high), (x, y + high)])
+
+
+def test_a_part_in_the_frame_of_a_sheet_is_no_hole():
+    part = square(100, 100, 40), circle(120, 120, 5)
+    for frame in ([_box(0, 0, 420, 297)], [_box(0, 0, 420, 297), _box(25, 5, 390, 287)], [_box(0, 0, 277, 190)]):
+        parts = _sheet(*part, *frame)
+        assert [(figure.kind, figure.depth) for figure in parts.figures] == [("hole", 1), ("outline", 0)]
+        assert _left(parts).count("frame") == len(frame)
+
+
+@pytest.mark.parametrize(
+    ("frame", "text_mm"),
+    [
+        (_box(0, 0, 420, 297), None),  # no text in it
+        (_box(0, 0, 420, 297), (500.0, 0.0)),
+        (_box(0, 0, 425, 297), (250.0, 20.0)),  # no size of a sheet
+        (_box(0, 0, 210, 297), (20.0, 20.0)),  # not about all else
+        (polygon([(0, 0), (420, 0), (420, 297), (10, 297), (0, 287)]), (250.0, 20.0)),  # no rectangle
+    ],
+)
+def test_a_plate_is_no_frame(frame, text_mm):
+    parts = _sheet(square(100, 100, 40), circle(300, 30, 5), frame, text_mm=text_mm)
+    assert "frame" not in _left(parts)
+
+
+def test_a_frame_alone_is_a_plate():
+    assert _kinds(_sheet(_box(0, 0, 420, 297))) == [(1, "outline", 0)]
 
 
 # What does not close
