@@ -27,7 +27,18 @@ from parser.write.iso import IsoChoices, iso_choices
 from sim.base.progress import Progress, silent
 from sim.make.cam.compensated_draft import added_draft, draft_of_plan, kept_draft
 from sim.make.cam.contacts import walls
-from sim.make.cam.model import CannotCutError, CutPlan, Figure, FigureCut, NotProved, Parts, Refusal, Thread, with_sides
+from sim.make.cam.model import (
+    CannotCutError,
+    CutPlan,
+    Figure,
+    FigureCut,
+    NotProved,
+    Parts,
+    Refusal,
+    Thread,
+    refuse_strange_layers,
+    with_sides,
+)
 from sim.make.cam.order import in_order
 from sim.make.cam.parts import parts_of
 from sim.make.cam.passes import figure_cut, offsets_of
@@ -164,7 +175,9 @@ def _planned(request: "_MakeRequest", fit_um: float) -> CutPlan:
     progress("drawing", 0, 1)
     drawing = read_drawing(path, making.layer, making.gap_um, fit_um=fit_um, unit=making.unit)
     progress("figures", 0, 1)
-    parts = parts_of(drawing, making).without(at_fault)
+    parts = parts_of(drawing, making)
+    refuse_strange_layers(parts.figures, making)
+    parts = parts.without(at_fault)
     while True:
         try:
             return _plan_of(drawing, parts, making, scenario)

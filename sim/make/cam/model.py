@@ -319,16 +319,13 @@ class Way(NamedTuple):
 
 
 def with_sides(figures: Sequence[Figure], making: Making) -> tuple[Figure, ...]:
-    """The figures with the sides that are asked for, for their layers or for all.
-
-    CannotCutError, ``no-such-layer``, where a layer for which something is asked has no figure: its name may be wrong.
-    """
-    _refuse_strange(figures, making)
+    """The figures with the sides that are asked for, for their layers or for all."""
     of_layer = {wish.layer.casefold(): wish.side for wish in making.layers if wish.side is not None}
     return tuple(_with_side(figure, of_layer.get(figure.layer.casefold(), making.side)) for figure in figures)
 
 
-def _refuse_strange(figures: Sequence[Figure], making: Making) -> None:
+def refuse_strange_layers(figures: Sequence[Figure], making: Making) -> None:
+    """CannotCutError, ``no-such-layer``, where a layer for which something is asked has no figure: a slip, maybe."""
     layers = {figure.layer.casefold(): figure.layer for figure in figures}
     strange = [wish.layer for wish in making.layers if wish.layer.casefold() not in layers]
     if strange:

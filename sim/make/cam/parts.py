@@ -70,8 +70,8 @@ def parts_of(drawing: Drawing, making: Making) -> Parts:
     wanted = picked(_pickable(drawing, found, nested), making.picks) if making.picks else found.is_whole
     why = {at: _Uncertain("not-picked") for at in np.flatnonzero(found.is_whole & ~wanted).tolist()}
     why |= _uncertain(found, wanted, touching, loose.divided, within)
-    if making.side == "nesting":
-        why = {**_half_around(found, wanted, loose.around), **why}
+    by_nesting = wanted & _are_by_nesting(drawing, found, making)
+    why = {**_half_around(found, by_nesting, loose.around), **why}
     is_cut = found.is_whole.copy()
     is_cut[list(why)] = False
     if not is_cut.any():
@@ -123,6 +123,13 @@ def _uncertain(
     for at in np.flatnonzero(wanted & np.isin(found.number, list(divided))).tolist():
         why.setdefault(at, _Uncertain("divided"))
     return why
+
+
+def _are_by_nesting(drawing: Drawing, found: _Found, making: Making) -> Bools:
+    """(l,) of which contours nobody says on which side the wire runs, for their layers or for all."""
+    of_layer = {wish.layer.casefold(): wish.side for wish in making.layers if wish.side is not None}
+    layers = [_entity(drawing, found, at).layer.casefold() for at in range(len(found.loops))]
+    return np.array([of_layer.get(layer, making.side) == "nesting" for layer in layers], dtype=np.bool_)
 
 
 def _half_around(found: _Found, wanted: Bools, around: Sequence[Curves]) -> dict[int, _Uncertain]:

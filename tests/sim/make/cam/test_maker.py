@@ -169,3 +169,17 @@ def test_a_part_in_a_frame_is_proved_with_the_wire_outside(tmp_path: Path) -> No
     (cut,) = done.plan.cuts
     assert (cut.figure.kind, cut.figure.runs_inside) == ("outline", False)
     assert [left.why for left in done.plan.to_check] == ["frame"]
+
+
+def test_a_wish_for_a_layer_holds_though_all_its_figures_stay_uncut(tmp_path: Path) -> None:
+    """A hole of R 0.06 has no room for a lead; its layer is no slip."""
+
+    def draw(space: Modelspace) -> None:
+        space.add_lwpolyline([(0, 0), (6, 0), (6, 4), (0, 4)], close=True)
+        space.add_circle((2, 2), 0.06, {"layer": "PINS"})
+
+    making = Making(layers=(LayerWish("PINS", rank=1),))
+    done = made_program(drawn(tmp_path, draw), making, TO_3B, plain_scenario())
+    assert isinstance(done, MadeProgram)
+    assert done.is_proved
+    assert [left.why for left in done.plan.to_check] == ["no-room"]

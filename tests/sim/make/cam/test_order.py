@@ -8,7 +8,7 @@ import pytest
 from parser.drawing.model import Entity
 from parser.geometry.curves import curves_between
 from parser.toolpath import Point
-from sim.make.cam.model import CannotCutError, Entry, Figure, Thread, way_of, with_sides
+from sim.make.cam.model import CannotCutError, Entry, Figure, Thread, refuse_strange_layers, way_of, with_sides
 from sim.make.cam.order import around, in_order
 from sim.setup.making import LayerWish, Making
 
@@ -141,8 +141,9 @@ def test_one_side_has_the_wire_on_the_left_of_all_contours() -> None:
 
 
 def test_a_wish_for_a_layer_without_a_figure_is_refused_by_its_name() -> None:
+    wishes = LayerWish("SMALL", rank=1), LayerWish("smalls", side="inside")
     with pytest.raises(CannotCutError) as caught:
-        with_sides(PLATE, Making(layers=(LayerWish("SMALL", rank=1), LayerWish("smalls", side="inside"))))
+        refuse_strange_layers(PLATE, Making(layers=wishes))
     refusal = caught.value.refusal
     assert refusal.why == "no-such-layer"
     assert dict(refusal.values)["layer"] == "smalls"

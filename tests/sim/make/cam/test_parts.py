@@ -14,7 +14,7 @@ from parser.drawing.model import Entity, FitFigures, LeftOut
 from parser.geometry.curves import curves_between
 from sim.make.cam.model import CannotCutError, Figure, Parts, Refusal
 from sim.make.cam.parts import parts_of
-from sim.setup.making import Making
+from sim.setup.making import LayerWish, Making
 
 
 def _parts(*entities: list[Piece], gap_um: float = 10.0, loose: bool = False) -> Parts:
@@ -365,6 +365,14 @@ def test_a_contour_of_a_damaged_drawing_is_cut_on_its_right_side_or_not_at_all(s
     assert len(cut - wrong) == len(truth) - len(wrong) or "half-around" in told
     if wrong:
         assert told & {"almost-closed", "open", "crossing"}
+
+
+def test_what_lies_in_an_open_chain_is_cut_where_its_side_is_said():
+    corner = [*square(0, 0, 20)[:2]], circle(14, 6, 2)
+    assert _refused(*corner).why == "half-around"
+    drawing = drawing_of(list(corner))
+    for making in (Making(side="inside"), Making(layers=(LayerWish("0", side="outside"),))):
+        assert len(parts_of(drawing, making).figures) == 1
 
 
 def _sheet(*entities: list[Piece], text_mm: tuple[float, float] | None = (250.0, 20.0)) -> Parts:
