@@ -245,6 +245,7 @@ def test_a_unit_that_makes_no_part_is_to_be_checked(tmp_path, code, measurement,
     path = saved(document, tmp_path)
     found = [note.values for note in read_drawing(path).notes if note.name == "doubtful-unit"]
     assert [(each["other"], pytest.approx(each["other_size"])) for each in found] == ([other] if other else [])
+    assert not any("e+" in note for note in notes(read_drawing(path)))
     if length < 1e4:
         asked = read_drawing(path, unit="inch")
         assert (asked.unit, asked.notes, asked.curves.length_um[0]) == ("inch", (), pytest.approx(25_400.0 * length))
