@@ -30,7 +30,7 @@ _CORNER_RAD: Final = (
 
 
 class Closing(NamedTuple):
-    """A contour that is closed by lines: its curves, its loop as it is drawn, open, and what of it is missing."""
+    """A contour that is closed by lines, counter-clockwise, and the first of the open loops that it is of."""
 
     contour: Curves
     loop: DrawnLoop
@@ -93,25 +93,21 @@ def loose_of(drawing: Drawing, loops: list[DrawnLoop], contours: Contours | None
     links = _links(chains, near, gap_um)
     divides, divided = _dividing(drawing, chains, contours, max(gap_um, SAME_WITHIN_UM))
     apart, place = _almost(chains, links)
-    left_out = []
-    for at, length in enumerate(chains.length_um.tolist()):
-        open_um = float(by[at].min())
-        why = "almost-closed" if apart[at] < np.inf else "divides" if divides[at] else "open"
-        gap = {"almost-closed": float(apart[at]), "open": open_um}.get(why, np.inf)
-        where = place[at] if apart[at] < np.inf else chains.end_um[at, 0]
-        left_out.append(
-            LeftOut(
-                drawing.entities[int(chains.entity[at])],
-                "dot" if length <= DOT_UM else why,
-                (float(where[0]), float(where[1])),
-                gap if np.isfinite(gap) else None,
-            )
-        )
+    is_almost, is_open = np.isfinite(apart), np.isinf(apart) & ~divides
+    why = np.select([chains.length_um <= DOT_UM, is_almost, divides], ["dot", "almost-closed", "divides"], "open")
+    gap = np.select([is_almost, is_open], [apart, by.min(axis=1)], np.inf)
+    where = np.where(is_almost[:, None], place, chains.end_um[:, 0])
+    columns = zip(chains.entity.tolist(), why.tolist(), where.tolist(), gap.tolist(), strict=True)
     ends = chains.end_um.reshape(-1, 2)
-    gaps_um = 0.5 * (ends[links.end] + ends[links.mate])
-    is_open = np.isinf(apart) & ~divides
     return Loose(
-        tuple(left_out), tuple(_closed(chains, loops, links)), tuple(_around(chains, is_open)), gaps_um, divided
+        left_out=tuple(
+            LeftOut(drawing.entities[entity], reason, (x, y), gap_um if np.isfinite(gap_um) else None)
+            for entity, reason, (x, y), gap_um in columns
+        ),
+        almost=tuple(_closed(chains, loops, links)),
+        around=tuple(_around(chains, is_open)),
+        gaps_um=0.5 * (ends[links.end] + ends[links.mate]),
+        divided=divided,
     )
 
 

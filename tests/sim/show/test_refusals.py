@@ -8,7 +8,7 @@ from places import ROOT
 
 from parser.drawing.loops.chain import WhyFlat
 from parser.toolpath import Point
-from sim.make.cam.model import Refusal
+from sim.make.cam.model import UNCUT, Refusal
 from sim.show.refusals import places_said, why_refused
 from sim.show.texts.texts import texts
 
@@ -28,7 +28,8 @@ def named_in_calls_of(*functions: str) -> set[str]:
 
 
 REFUSED = sorted(named_in_calls_of("Refusal", "refused"))
-LEFT_OUT = sorted(named_in_calls_of("LeftOut", "_left_out") | set(get_args(WhyFlat)))
+OF_FIGURES = {"falls-apart", "narrow-neck", "narrow-slot", "no-room", "too-near", "too-small"}
+LEFT_OUT = sorted(named_in_calls_of("LeftOut", "_left_out", "_Uncertain") | set(get_args(WhyFlat)) | set(UNCUT))
 
 
 @pytest.mark.parametrize("why", REFUSED)
@@ -39,6 +40,11 @@ def test_every_refusal_has_its_text(why: str) -> None:
 @pytest.mark.parametrize("why", LEFT_OUT)
 def test_every_reason_to_leave_out_has_its_text(why: str) -> None:
     assert f"left-out-{why}" in texts("program")
+
+
+def test_what_keeps_a_figure_from_being_cut_is_to_be_checked() -> None:
+    assert set(UNCUT) >= OF_FIGURES
+    assert set(REFUSED) >= OF_FIGURES - {"narrow-neck", "narrow-slot"}  # which of the two is chosen by a condition
 
 
 def test_a_refusal_tells_its_first_places() -> None:
