@@ -350,7 +350,7 @@ def unit_of(code: object) -> tuple[Unit, Remark | None]:
 
 
 _LEAST_PART_UM, _MOST_PART_UM = 500.0, 2e6
-"""No part is smaller than a start hole's half, none larger than the tables of wire EDM: 2 m (assumed)."""
+"""No part is smaller than half a start hole of 1 mm, none larger than the tables of wire EDM, 2 m (assumed)."""
 _ENGLISH = ("inch", "foot", "yard", "mil", "microinch")
 _LIKELY = tuple(UNITS[code] for code in (4, 1, 13, 6))  # in which a drawing may be meant, the likeliest first
 

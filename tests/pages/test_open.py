@@ -468,6 +468,10 @@ def test_what_is_clicked_in_the_picture_is_cut_alone(browsers: Browsers, empty: 
         for x, picked in ((22, 1), (2, 2), (2, 1)):  # a second click on a mark takes it back
             page.mouse.click(*at(x, 2))
             assert len([each for each in page.input_value("#picks").split(";") if each]) == picked
+        page.fill("#picks", "2F; 2,2;22, 2")
+        page.mouse.click(*at(2, 2))  # a mark that was written goes as one that was clicked
+        assert page.input_value("#picks") == "2F; 22, 2"
+        page.fill("#picks", "22,2")
         page.click("#make")
         shown.waits_for("pass")
         assert "not picked" in page.inner_text("#drawing-told")

@@ -13,8 +13,8 @@ from parser.drawing.read import read_drawing
 from parser.geometry.curves import Curves
 from parser.program import load_program
 from sim.make.cam.compensated_draft import draft_of_plan
-from sim.make.cam.maker import planned
 from sim.make.cam.model import CutPlan, FigureCut
+from sim.make.cam.planned import PlanRequest, planned
 from sim.make.cam.proof import ToProve, proved
 from sim.make.cam.target import Proof
 from sim.make.convert import proof as held_against
@@ -39,7 +39,7 @@ def plate_file(folder: Path, draw: Callable[[Modelspace], object] = plate) -> Pa
 
 
 def plan_of(path: Path, making: Making | None = None, scenario: Scenario | None = None) -> CutPlan:
-    return planned(path, making or Making(), scenario or plain_scenario())
+    return planned(PlanRequest(path, making or Making(), scenario or plain_scenario()))
 
 
 def proof_of(

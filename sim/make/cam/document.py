@@ -190,8 +190,8 @@ def _taken_entry(figure: Figure, plan: CutPlan) -> TakenEntry:
 
 
 def _left_entry(left_out: LeftOut) -> LeftEntry:
-    x, y = left_out.place_um or (0.0, 0.0)
-    return {"entity": _entity(left_out.entity), "at_mm": _in_mm(x, y), "why": left_out.why}
+    at_mm = None if left_out.place_um is None else _in_mm(*left_out.place_um)
+    return {"entity": _entity(left_out.entity), "at_mm": at_mm, "why": left_out.why}
 
 
 def _in_mm(x_um: float, y_um: float) -> list[float]:

@@ -99,7 +99,7 @@ class LeftEntry(TypedDict):
     """A contour, or a curve that closes none, that is not cut, and why."""
 
     entity: EntityEntry
-    at_mm: Point
+    at_mm: Point | None
     why: Slug
 
 

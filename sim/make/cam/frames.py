@@ -19,8 +19,7 @@ from sim.make.cam.contours import Contours
 _SHEETS_MM: Final = ((841, 1189), (594, 841), (420, 594), (297, 420), (210, 297))
 _MARGINS_MM: Final = ((0, 0, 0), (20, 10, 10), (25, 10, 10), (25, 5, 5), (20, 20, 20), (10, 10, 10))
 """On the left, on the right, above and below."""
-_NEAR_UM: Final = 500.0
-_TEXTS: Final = frozenset({"text"})
+_NEAR_UM: Final = 500.0  # of its size, a side: sheets are drawn in whole mm
 
 
 class Boxes(NamedTuple):
@@ -36,12 +35,12 @@ def frames(drawing: Drawing, contours: Contours, boxes: Boxes) -> Bools:
     size = boxes.high_um - boxes.low_um
     is_line = np.bincount(contours.loop, contours.curves.is_arc, len(size)) == 0
     is_box = is_line & (np.abs(boxes.area_um2 - size.prod(axis=1)) <= 1e-6 * size.prod(axis=1))
-    near = np.any(np.all(np.abs(size[:, None] - _sizes_um()[None]) <= _NEAR_UM, axis=2), axis=1)
+    is_sheet = is_box & np.any(np.all(np.abs(size[:, None] - _sizes_um()[None]) <= _NEAR_UM, axis=2), axis=1)
     found = np.zeros(len(size), dtype=np.bool_)
-    places = [each.place_um for each in drawing.left_out if each.why in _TEXTS and each.place_um]
+    places = [each.place_um for each in drawing.left_out if each.why == "text" and each.place_um]
     if not places:
         return found
-    for at in np.flatnonzero(is_box & near)[np.argsort(-boxes.area_um2[is_box & near])].tolist():
+    for at in sorted(np.flatnonzero(is_sheet).tolist(), key=lambda each: -float(boxes.area_um2[each])):
         low, high = boxes.low_um[at] - _NEAR_UM, boxes.high_um[at] + _NEAR_UM
         others = ~found
         others[at] = False

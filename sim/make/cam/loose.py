@@ -153,10 +153,9 @@ def _almost(chains: _Chains, links: _Links) -> tuple[Floats, Floats]:
     """How far (c,) each chain is open, infinite where it is meant to be, and the middle (c, 2) of what is open."""
     apart, place = np.full(len(chains.length_um), np.inf), np.zeros((len(chains.length_um), 2))
     ends = chains.end_um.reshape(-1, 2)
-    for end, mate, apart_um in zip(*(column.tolist() for column in links), strict=True):
-        for chain in (end // 2, mate // 2):
-            if apart_um < apart[chain]:
-                apart[chain], place[chain] = apart_um, 0.5 * (ends[end] + ends[mate])
+    chain, at = np.unique(np.stack([links.end // 2, links.mate // 2], axis=1).ravel(), return_index=True)
+    link = at // 2  # the first of each chain: of the nearest ends
+    apart[chain], place[chain] = links.apart_um[link], 0.5 * (ends[links.end[link]] + ends[links.mate[link]])
     return apart, place
 
 
@@ -216,14 +215,12 @@ def _dividing(
     tied = np.zeros(len(end), dtype=np.bool_)
     tied[near.other] = True
     divides = tied[::2] & tied[1::2]
-    turns = _turns(contours, near.row, end[near.other], within_um)
-    twice = _drawn_twice(drawing, chains, np.flatnonzero(divides))
-    divided = set[int]()
-    for at in np.flatnonzero(divides).tolist():
-        here = [near.other == 2 * at, near.other == 2 * at + 1]
-        if at in twice or all(bool(turns[each].any()) for each in here):
-            divided.update(contours.loop[near.row[here[0] | here[1]]].tolist())
-    return divides, frozenset(divided)
+    turned = np.zeros(len(end), dtype=np.bool_)
+    turned[near.other[_turns(contours, near.row, end[near.other], within_um)]] = True
+    is_unsure = turned[::2] & turned[1::2]
+    is_unsure[_drawn_twice(drawing, chains, np.flatnonzero(divides))] = True
+    unsure = contours.loop[near.row[(divides & is_unsure)[near.other // 2]]]
+    return divides, frozenset(unsure.tolist())
 
 
 def _turns(contours: Contours, row: Ints, place_um: Floats, within_um: float) -> Bools:
@@ -240,14 +237,15 @@ def _turns(contours: Contours, row: Ints, place_um: Floats, within_um: float) ->
     return turns
 
 
-def _drawn_twice(drawing: Drawing, chains: _Chains, which: Ints) -> set[int]:
-    """Which of some chains are drawn again by another curve."""
+def _drawn_twice(drawing: Drawing, chains: _Chains, which: Ints) -> Ints:
+    """Which of some chains (k,) are drawn again by another curve."""
     again = [each.place_um for each in drawing.left_out if each.why in {"drawn-twice", "overlaps"} and each.place_um]
     if not again or not len(which):
-        return set()
+        return which[:0]
     curves = joined([chains.ran[at] for at in which.tolist()])
     of = np.repeat(which, [len(chains.ran[at]) for at in which.tolist()])
     place = np.array(again)
     near = near_places(curves, place, BESIDE_UM)
     distance, _ = distance_to_curves(curves, near.row, place[near.other, 0], place[near.other, 1])
-    return set(of[near.row[distance <= BESIDE_UM]].tolist())
+    twice: Ints = np.unique(of[near.row[distance <= BESIDE_UM]])
+    return twice

@@ -26,25 +26,11 @@ from parser.write.draft import Draft
 from parser.write.iso import IsoChoices, iso_choices
 from sim.base.progress import Progress, silent
 from sim.make.cam.compensated_draft import added_draft, draft_of_plan, kept_draft
-from sim.make.cam.contacts import walls
-from sim.make.cam.model import (
-    CannotCutError,
-    CutPlan,
-    Figure,
-    FigureCut,
-    NotProved,
-    Parts,
-    Refusal,
-    Thread,
-    refuse_strange_layers,
-    with_sides,
-)
-from sim.make.cam.order import in_order
-from sim.make.cam.parts import parts_of
-from sim.make.cam.passes import figure_cut, offsets_of
+from sim.make.cam.model import CannotCutError, CutPlan, Refusal
+from sim.make.cam.passes import figure_cut
+from sim.make.cam.planned import PlanRequest, planned
 from sim.make.cam.proof import ToProve, proved
 from sim.make.cam.target import Proof, least_um, target_of
-from sim.make.cam.threads import thread_notes, threads_of
 from sim.make.convert import Proof as Written
 from sim.make.convert import proof as held_against
 from sim.make.wanted import (
@@ -103,16 +89,6 @@ _SURELY_ALONE = 2  # fits: of a large drawing no more is looked at than the one 
 _FLATTEN_SHARE = 0.01  # of the tolerance: how far the lines of the drawing as it is drawn lie off its curves
 
 
-class _MakeRequest(NamedTuple):
-    """What is asked for: of which drawing, how, on whose machine, whom it tells, and figures that failed a proof."""
-
-    path: Path
-    making: Making
-    scenario: Scenario
-    progress: Progress
-    at_fault: tuple[NotProved, ...] = ()
-
-
 class MadeProgram(NamedTuple):
     """A program that was made of a drawing.
 
@@ -160,63 +136,6 @@ class NotMade(NamedTuple):
     plan: CutPlan | None = None
 
 
-def planned(path: Path, making: Making, scenario: Scenario, progress: Progress = silent) -> CutPlan:
-    """What is to be cut, and how, with arcs fitted within the tolerance of the path.
-
-    Figures that cannot be cut stay uncut, as long as others can. CannotCutError where none can, or where the drawing
-    asks for what cannot be.
-    """
-    return _planned(_MakeRequest(path, making, scenario, progress), making.tolerance_um)
-
-
-def _planned(request: "_MakeRequest", fit_um: float) -> CutPlan:
-    """The same with arcs fitted within `fit_um`."""
-    path, making, scenario, progress, at_fault = request
-    progress("drawing", 0, 1)
-    drawing = read_drawing(path, making.layer, making.gap_um, fit_um=fit_um, unit=making.unit)
-    progress("figures", 0, 1)
-    parts = parts_of(drawing, making)
-    refuse_strange_layers(parts.figures, making)
-    parts = parts.without(at_fault)
-    while True:
-        try:
-            return _plan_of(drawing, parts, making, scenario)
-        except CannotCutError as error:
-            if not (error.refusals and parts.without(error.refusals).figures):
-                raise
-            parts = parts.without(error.refusals)
-
-
-def _plan_of(drawing: Drawing, parts: Parts, making: Making, scenario: Scenario) -> CutPlan:
-    """How some parts are cut. CannotCutError where they cannot be, or some of them."""
-    passes_um = making.passes_um or (scenario.wire.reach_um,)
-    figures = with_sides(parts.figures, making)
-    widest_um = [max(offsets_of(figure, passes_um, making)) for figure in figures]
-    notes = (*parts.notes, *walls(figures, widest_um, scenario.wire.reach_um))
-    threads = threads_of(drawing, figures, making, max(widest_um))
-    notes += thread_notes(figures, threads, making)
-    order = in_order(figures, threads, making)
-    cuts = _cuts([(figures[each], threads[each]) for each in order], passes_um, making)
-    return CutPlan(drawing, making, passes_um, cuts, parts.uncut, parts.left_out, notes)
-
-
-def _cuts(
-    threaded: Sequence[tuple[Figure, Thread]], passes_um: tuple[float, ...], making: Making
-) -> tuple[FigureCut, ...]:
-    """How figures are cut from their threads. CannotCutError with all of them that cannot be."""
-    cuts, refusals = list[FigureCut](), list[Refusal]()
-    for figure, thread in threaded:
-        try:
-            cuts.append(figure_cut(figure, thread, passes_um, making))
-        except CannotCutError as error:
-            if not error.refusals:
-                raise
-            refusals += error.refusals
-    if refusals:
-        raise CannotCutError(*refusals)
-    return tuple(cuts)
-
-
 def made_program(
     path: Path, making: Making, wanted: Wanted, scenario: Scenario, progress: Progress = silent
 ) -> MadeProgram | NotMade:
@@ -227,7 +146,7 @@ def made_program(
     Raises FileUnreadableError and DrawingError where there is no drawing, SettingsError where the dialect cannot say
     what it needs.
     """
-    request = _MakeRequest(path, making, scenario, progress)
+    request = PlanRequest(path, making, scenario, progress)
     done = _proved(request, wanted)
     if isinstance(done, MadeProgram) and done.proof is not None and done.proof.at_fault:
         others = _proved(request._replace(at_fault=done.proof.at_fault), wanted)
@@ -236,7 +155,7 @@ def made_program(
     return done
 
 
-def _proved(request: _MakeRequest, wanted: Wanted) -> MadeProgram | NotMade:
+def _proved(request: PlanRequest, wanted: Wanted) -> MadeProgram | NotMade:
     """A program with its proof."""
     done = _unproved(request, wanted)
     if isinstance(done, NotMade):
@@ -254,10 +173,10 @@ def unproved(
 
     Arcs are fitted within the tolerance. Where whole µm move the written path past it, they are fitted anew, nearer.
     """
-    return _unproved(_MakeRequest(path, making, scenario, progress), wanted)
+    return _unproved(PlanRequest(path, making, scenario, progress), wanted)
 
 
-def _unproved(request: _MakeRequest, wanted: Wanted) -> MadeProgram | NotMade:
+def _unproved(request: PlanRequest, wanted: Wanted) -> MadeProgram | NotMade:
     path, making = request.path, request.making
     try:
         done = _fitted(request, wanted, making.tolerance_um)
@@ -276,9 +195,9 @@ def _unproved(request: _MakeRequest, wanted: Wanted) -> MadeProgram | NotMade:
     return done
 
 
-def _fitted(request: _MakeRequest, wanted: Wanted, fit_um: float) -> MadeProgram:
+def _fitted(request: PlanRequest, wanted: Wanted, fit_um: float) -> MadeProgram:
     """A program whose arcs are fitted within `fit_um`. CannotCutError where there is none, or its language has none."""
-    plan = _planned(request, fit_um)
+    plan = planned(request, fit_um)
     request.progress("write", 0, 1)
     plan = plan._replace(notes=(*plan.notes, *_own_codes(wanted)))
     plan = plan._replace(is_added=wanted.keeps and wanted.language == "4b" and any(plan.passes_um))

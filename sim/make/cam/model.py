@@ -261,7 +261,7 @@ UNCUT: Final = (
     "divides",
     "falls-apart",
     "frame",
-    "half-around",
+    "within-open",
     "narrow-neck",
     "narrow-slot",
     "no-room",

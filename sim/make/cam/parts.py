@@ -71,7 +71,7 @@ def parts_of(drawing: Drawing, making: Making) -> Parts:
     why = {at: _Uncertain("not-picked") for at in np.flatnonzero(found.is_whole & ~wanted).tolist()}
     why |= _uncertain(found, wanted, touching, loose.divided, within)
     by_nesting = wanted & _are_by_nesting(drawing, found, making)
-    why = {**_half_around(found, by_nesting, loose.around), **why}
+    why = {**_within_open(found, by_nesting, loose.around), **why}
     is_cut = found.is_whole.copy()
     is_cut[list(why)] = False
     if not is_cut.any():
@@ -116,10 +116,12 @@ def _uncertain(
         (crossed(found.contours, touching, within_um), "crossing"),
     ):
         drawn = places.take(wanted[places.this] & wanted[places.other])
-        for at in np.unique(np.append(drawn.this, drawn.other)).tolist():
-            here = drawn.take((drawn.this == at) | (drawn.other == at))
-            other = int(here.other[0] if here.this[0] == at else here.this[0])
-            why.setdefault(at, _Uncertain(name, other, here.place_um))
+        own, mate = np.append(drawn.this, drawn.other), np.append(drawn.other, drawn.this)
+        place = np.concatenate([drawn.place_um, drawn.place_um])
+        order = np.argsort(own, kind="stable")
+        numbers, first = np.unique(own[order], return_index=True)
+        for at, here in zip(numbers.tolist(), np.split(order, first[1:]), strict=False):  # no number, one empty part
+            why.setdefault(at, _Uncertain(name, int(mate[here[0]]), place[here]))
     for at in np.flatnonzero(wanted & np.isin(found.number, list(divided))).tolist():
         why.setdefault(at, _Uncertain("divided"))
     return why
@@ -132,15 +134,15 @@ def _are_by_nesting(drawing: Drawing, found: _Found, making: Making) -> Bools:
     return np.array([of_layer.get(layer, making.side) == "nesting" for layer in layers], dtype=np.bool_)
 
 
-def _half_around(found: _Found, wanted: Bools, around: Sequence[Curves]) -> dict[int, _Uncertain]:
+def _within_open(found: _Found, wanted: Bools, around: Sequence[Curves]) -> dict[int, _Uncertain]:
     """Contours that are wanted (l,) and lie within open chains, closed by lines: they may be holes."""
     start = np.array([_start(found, at) for at in range(len(found.loops))])
     within = np.zeros(len(start), dtype=np.bool_)
     for ring in around:
-        low, high = (each for each in extents(ring))
+        low, high = extents(ring)
         near = np.flatnonzero(((start > low.min(axis=0)) & (start < high.max(axis=0))).all(axis=1))
         within[near[is_inside(ring, start[near])]] = True
-    return {at: _Uncertain("half-around") for at in np.flatnonzero(within & wanted).tolist()}
+    return {at: _Uncertain("within-open") for at in np.flatnonzero(within & wanted).tolist()}
 
 
 def _uncut_said(drawing: Drawing, found: _Found, why: dict[int, _Uncertain]) -> Iterator[LeftOut]:

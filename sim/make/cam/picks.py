@@ -57,11 +57,16 @@ def _picked(among: Pickable, pick: Pick) -> Bools:
         case OfPart(place_um):
             return _part_at(among, np.array([place_um]))
         case OfWindow(low_um, high_um):
-            low, high = extents(among.contours.curves)
-            first = np.searchsorted(among.contours.loop, np.arange(len(among.entities)))
-            lowest, highest = np.minimum.reduceat(low, first), np.maximum.reduceat(high, first)
-            within: Bools = np.all((lowest >= low_um) & (highest <= high_um), axis=1)
+            low, high = _boxes(among)
+            within: Bools = np.all((low >= low_um) & (high <= high_um), axis=1)
             return within
+
+
+def _boxes(among: Pickable) -> tuple[Floats, Floats]:
+    """Lowest and highest x and y (l, 2) of each contour, µm."""
+    low, high = extents(among.contours.curves)
+    first = np.searchsorted(among.contours.loop, np.arange(len(among.entities)))
+    return np.minimum.reduceat(low, first), np.maximum.reduceat(high, first)
 
 
 def _any(among: Pickable, names: Sequence[set[str]] | Sequence[set[int]], name: str | int) -> Bools:
@@ -74,7 +79,9 @@ def _part_at(among: Pickable, place_um: Floats) -> Bools:
     None where the smallest contour around it is not whole.
     """
     chosen = np.zeros(len(among.entities), dtype=np.bool_)
-    around = [at for at in range(len(chosen)) if bool(is_inside(among.contours.contour(at), place_um)[0])]
+    low, high = _boxes(among)
+    near = np.flatnonzero(np.all((low <= place_um) & (high >= place_um), axis=1)).tolist()
+    around = [at for at in near if bool(is_inside(among.contours.contour(at), place_um)[0])]
     inner = min(around, key=lambda at: float(among.area_um2[at]), default=-1)
     if inner < 0 or not among.is_whole[inner]:
         return chosen

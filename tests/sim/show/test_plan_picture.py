@@ -11,8 +11,8 @@ from golden_pictures import assert_golden
 from numpy.typing import NDArray
 
 from parser.toolpath import Point
-from sim.make.cam.maker import planned
 from sim.make.cam.model import CutPlan
+from sim.make.cam.planned import PlanRequest, planned
 from sim.setup.machine.machine import load_machine
 from sim.setup.making import Making
 from sim.setup.picks import pick_of
@@ -36,7 +36,7 @@ def plate(space: Modelspace) -> None:
 @pytest.fixture(name="plan", scope="module")
 def plan_of_plate(tmp_path_factory: pytest.TempPathFactory) -> CutPlan:
     path = drawn(tmp_path_factory.mktemp("plate"), plate)
-    return planned(path, Making(passes_um=PASSES_UM, starts_um=STARTS_UM), SCENARIO)
+    return planned(PlanRequest(path, Making(passes_um=PASSES_UM, starts_um=STARTS_UM), SCENARIO))
 
 
 @pytest.fixture(name="dots", scope="module")
@@ -81,7 +81,7 @@ def test_many_figures_have_marks_without_numbers(plan: CutPlan) -> None:
 
 def test_another_wire_has_another_pass(tmp_path: Path) -> None:
     wide = replace(SCENARIO, wire=replace(SCENARIO.wire, diameter_um=280.0))
-    one = planned(drawn(tmp_path, plate), Making(), wide)
+    one = planned(PlanRequest(drawn(tmp_path, plate), Making(), wide))
     assert "offset 0.150 mm" in draw_plan(drawing(1200), one).document("plan", 1200)
 
 
@@ -95,7 +95,7 @@ def test_what_is_not_cut_is_dashed_in_the_colour_of_what_it_is(tmp_path: Path) -
         (Making(), Paint.WARNING, "not cut: to be checked"),
         (Making(picks=(pick_of("0,0..13,9", ""),)), Paint.GREY, "not picked"),
     ):
-        one = planned(path, making, SCENARIO)
+        one = planned(PlanRequest(path, making, SCENARIO))
         text = draw_plan(drawing(1200), one).document("plan", 1200)
         assert said in text
         assert plan_bounds_um(one)[1, 0] >= 30_000.0

@@ -2,7 +2,7 @@
 import * as asked from "./asked.js";
 import { element, make } from "../../html/assets/elements.js";
 import * as language from "../../html/assets/language.js";
-import { IN_PLACE, laid, lifted } from "./picks.js";
+import { IN_PLACE, laid, lifted, placeOf } from "./picks.js";
 
 /** @import { Said } from "../../html/assets/language.js" */
 /** @import { Curves } from "../../replay/assets/document.js" */
@@ -67,10 +67,7 @@ export function wireDrawing(around) {
    * @returns {[x: number, y: number][]}
    */
   function placesOfPicks() {
-    return listOfPicks().flatMap((each) => {
-      const [, x, y] = /^(-?[\d.]+),(-?[\d.]+)$/.exec(each) ?? [];
-      return x && y ? [[Number(x), Number(y)]] : [];
-    });
+    return listOfPicks().map(placeOf).filter((place) => place !== null);
   }
 
   /** How it is read. */
@@ -130,9 +127,12 @@ export function wireDrawing(around) {
     pick(place, nearUm) {
       if (!number || element("#panel-drawing", HTMLElement).hidden) return false;
       const [x, y] = lifted(placement, place).map((um) => (um / 1000).toFixed(3));
-      const near = placesOfPicks().find((mm) => Math.hypot(1000 * (mm[0] - Number(x)), 1000 * (mm[1] - Number(y))) < nearUm);
-      const others = near && listOfPicks().filter((each) => each !== `${near[0].toFixed(3)},${near[1].toFixed(3)}`);
-      picks.value = (others ?? [...listOfPicks(), `${x},${y}`]).join("; ");
+      const all = listOfPicks();
+      const others = all.filter((each) => {
+        const own = placeOf(each);
+        return !own || 1000 * Math.hypot(own[0] - Number(x), own[1] - Number(y)) >= nearUm;
+      });
+      picks.value = (others.length < all.length ? others : [...all, `${x},${y}`]).join("; ");
       show();
       return true;
     },

@@ -30,6 +30,16 @@ export function lifted({ turn_rad: turn, shift_um: [byX, byY], mirror }, [x, y])
 }
 
 /**
+ * The place that a pick names, mm; null where it names something else.
+ * @param {string} pick
+ * @returns {[x: number, y: number] | null}
+ */
+export function placeOf(pick) {
+  const [, x, y] = /^(-?[\d.]+) *, *(-?[\d.]+)$/.exec(pick) ?? [];
+  return x && y ? [Number(x), Number(y)] : null;
+}
+
+/**
  * Draw the marks of what is picked.
  * @param {CanvasRenderingContext2D} pen
  * @param {View} view

@@ -362,14 +362,14 @@ def test_a_contour_of_a_damaged_drawing_is_cut_on_its_right_side_or_not_at_all(s
         assert figure.kind == ("hole" if depths[of] % 2 else "outline")
         cut.add(of)
     told = {left.why for left in parts.left_out}
-    assert len(cut - wrong) == len(truth) - len(wrong) or "half-around" in told
+    assert len(cut - wrong) == len(truth) - len(wrong) or "within-open" in told
     if wrong:
         assert told & {"almost-closed", "open", "crossing"}
 
 
 def test_what_lies_in_an_open_chain_is_cut_where_its_side_is_said():
     corner = [*square(0, 0, 20)[:2]], circle(14, 6, 2)
-    assert _refused(*corner).why == "half-around"
+    assert _refused(*corner).why == "within-open"
     drawing = drawing_of(list(corner))
     for making in (Making(side="inside"), Making(layers=(LayerWish("0", side="outside"),))):
         assert len(parts_of(drawing, making).figures) == 1

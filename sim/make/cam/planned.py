@@ -1,0 +1,92 @@
+"""The plan of a drawing: what is cut, from where, in which order and passes; what cannot be cut stays uncut."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+from parser.drawing.model import Drawing
+from parser.drawing.read import read_drawing
+from sim.base.progress import Progress, silent
+from sim.make.cam.contacts import walls
+from sim.make.cam.model import (
+    CannotCutError,
+    CutPlan,
+    Figure,
+    FigureCut,
+    NotProved,
+    Parts,
+    Refusal,
+    Thread,
+    refuse_strange_layers,
+    with_sides,
+)
+from sim.make.cam.order import in_order
+from sim.make.cam.parts import parts_of
+from sim.make.cam.passes import figure_cut, offsets_of
+from sim.make.cam.threads import thread_notes, threads_of
+from sim.setup.making import Making
+from sim.setup.scenario import Scenario
+
+
+class PlanRequest(NamedTuple):
+    """What is asked for: of which drawing, how, on whose machine, whom it tells, and figures that failed a proof."""
+
+    path: Path
+    making: Making
+    scenario: Scenario
+    progress: Progress = silent
+    at_fault: tuple[NotProved, ...] = ()
+
+
+def planned(request: PlanRequest, fit_um: float | None = None) -> CutPlan:
+    """What is to be cut, and how, with arcs fitted within `fit_um`, else the tolerance of the path.
+
+    Figures that cannot be cut stay uncut, as long as others can. CannotCutError where none can, or where the drawing
+    asks for what cannot be.
+    """
+    path, making, scenario, progress, at_fault = request
+    progress("drawing", 0, 1)
+    fit_um = making.tolerance_um if fit_um is None else fit_um
+    drawing = read_drawing(path, making.layer, making.gap_um, fit_um=fit_um, unit=making.unit)
+    progress("figures", 0, 1)
+    parts = parts_of(drawing, making)
+    refuse_strange_layers(parts.figures, making)
+    parts = parts.without(at_fault)
+    while True:
+        try:
+            return _plan_of(drawing, parts, making, scenario)
+        except CannotCutError as error:
+            rest = parts.without(error.refusals)
+            if len(rest.figures) in {0, len(parts.figures)}:
+                raise
+            parts = rest
+
+
+def _plan_of(drawing: Drawing, parts: Parts, making: Making, scenario: Scenario) -> CutPlan:
+    """How some parts are cut. CannotCutError where they cannot be, or some of them."""
+    passes_um = making.passes_um or (scenario.wire.reach_um,)
+    figures = with_sides(parts.figures, making)
+    widest_um = [max(offsets_of(figure, passes_um, making)) for figure in figures]
+    notes = (*parts.notes, *walls(figures, widest_um, scenario.wire.reach_um))
+    threads = threads_of(drawing, figures, making, max(widest_um))
+    notes += thread_notes(figures, threads, making)
+    order = in_order(figures, threads, making)
+    cuts = _cuts([(figures[each], threads[each]) for each in order], passes_um, making)
+    return CutPlan(drawing, making, passes_um, cuts, parts.uncut, parts.left_out, notes)
+
+
+def _cuts(
+    threaded: Sequence[tuple[Figure, Thread]], passes_um: tuple[float, ...], making: Making
+) -> tuple[FigureCut, ...]:
+    """How figures are cut from their threads. CannotCutError with all of them that cannot be."""
+    cuts, refusals = list[FigureCut](), list[Refusal]()
+    for figure, thread in threaded:
+        try:
+            cuts.append(figure_cut(figure, thread, passes_um, making))
+        except CannotCutError as error:
+            if not error.refusals:
+                raise
+            refusals += error.refusals
+    if refusals:
+        raise CannotCutError(*refusals)
+    return tuple(cuts)
