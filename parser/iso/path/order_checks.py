@@ -101,7 +101,8 @@ def _named_places(given: GivenColumns, run: Flow, place: Places) -> Iterator[Fin
 def _bare_places(given: GivenColumns, run: Flow) -> Iterator[Finding]:
     """ISO113: a G92 that names no place, with the place that it was taken for as its mend, written as others are.
 
-    A place of which no number can be read (ISO102) is no bare one: nothing is mended there.
+    A place of which no number can be read (ISO102) is no bare one: nothing is mended there. Of two in one block
+    (ISO200) neither has a mend, which would write each letter twice.
     """
     words = given.listing.words
     written = words.decimals[np.isin(words.letter, _MOTION_LETTERS)]
@@ -111,11 +112,11 @@ def _bare_places(given: GivenColumns, run: Flow) -> Iterator[Finding]:
     ran &= ~given.listing.blocks.is_damaged
     names = given.listing.of("G")
     names = names[(words.value[names] * 10 == SET_PLACE) & (bare_place(given) & ran)[words.block[names]]]
-    for word in names.tolist():
+    in_block = np.bincount(words.block[names], minlength=len(ran))[words.block[names]]
+    for word, fellows in zip(names.tolist(), in_block.tolist(), strict=True):
         past = int(words.past[word])
-        yield _of_span(given.listing, "ISO113", (int(words.first[word]), past))._replace(
-            edits=(Edit(past, past, place),)
-        )
+        finding = _of_span(given.listing, "ISO113", (int(words.first[word]), past))
+        yield finding if fellows > 1 else finding._replace(edits=(Edit(past, past, place),))
 
 
 def _while_compensated(given: GivenColumns, run: Flow, side: Ints, at: Ints) -> Iterator[Finding]:

@@ -94,11 +94,14 @@ KEYS = (
         "exclude",
         "include",
         "baseline",
+        "help_uri",
     ),
     *(key.name for key in READ_WITH),
     *("end_marks", "pause_marks", "dialects", "wire", "per_file_ignores"),
 )
 """Keys of a settings file, in the order of docs/check.md."""
+_HELP_URI: Final = r"^https?://[-A-Za-z0-9._~:/?#\[\]@!$&'()*+,;=%]+\{code\}[-A-Za-z0-9._~:/?#\[\]@!$&'()*+,;=%]*$"
+"""What RFC 3986 allows in an address, with the place of the code."""
 FAIL_ON: tuple[FailOn, ...] = get_args(FailOn)
 _WIRE = {key.name: key for key in WIRE_LENGTHS.values()}
 
@@ -130,6 +133,8 @@ class SettingsFile:
         Dialects of a shop's own, by their names.
     machines
         Folder of a shop's machine files; None where it names none.
+    help_uri
+        Address of the page of a finding, with ``{code}`` for its code; empty where a shop has no such pages.
     """
 
     settings: CheckSettings = CheckSettings()  # noqa: RUF009 - frozen
@@ -139,6 +144,7 @@ class SettingsFile:
     baseline: Path | None = None
     dialects: Mapping[str, OwnDialect] = field(default_factory=dict)
     machines: Path | None = None
+    help_uri: str = ""
 
     def settings_of(self, path: Path) -> CheckSettings:
         """What one file is checked with; its path has no link in it but for its last part."""
@@ -198,6 +204,7 @@ def read_settings(content: Mapping[str, Any], file: Path, name: str) -> Settings
         file.parent / text(content, "baseline", name) if "baseline" in content else None,
         own,
         machines,
+        _help_uri(content, name),
     )
 
 
@@ -209,6 +216,16 @@ def _machines(content: Mapping[str, Any], file: Path, where: str) -> Path | None
     if not folder.is_dir():
         raise SettingsError("no-machines-folder", where=where, folder=folder)
     return folder
+
+
+def _help_uri(content: Mapping[str, Any], where: str) -> str:
+    """The address of pages of findings; empty where there is none. SettingsError for what is no such address."""
+    if "help_uri" not in content:
+        return ""
+    address = text(content, "help_uri", where)
+    if not re.fullmatch(_HELP_URI, address):
+        raise SettingsError("no-help-uri", where=where, found=address)
+    return address
 
 
 def _dialect(content: Mapping[str, Any], own: Mapping[str, OwnDialect], file: Path, where: str) -> ChosenDialect:
@@ -295,6 +312,7 @@ def _first_last() -> str:
 
 _TEXT: Final = {"type": "string", "minLength": 1}
 _CODES: Final = {"type": "array", "items": {"type": "string"}}
+_ADDRESS: Final = {"type": "string", "pattern": _HELP_URI}
 _MARKS: Final = {"type": "array", "items": {"type": "string", "pattern": "^[A-Za-z]{0,4}$"}}
 
 
@@ -313,6 +331,10 @@ def settings_schema() -> dict[str, Any]:
         "exclude": ("patterns of files that are left out where a folder is looked through", _list_of(_TEXT)),
         "include": ("patterns of files that are programs whatever their names end in", _list_of(_TEXT)),
         "baseline": ("file of known findings and incomplete checks", _TEXT),
+        "help_uri": (
+            "address of the page of a finding, {code} its code: helpUri of SARIF",
+            _ADDRESS,
+        ),
         "dialect": ("dialect of ISO programs, also one of those below, or its .toml file", _TEXT),
         **{key.name: (f"{key.name} of ISO programs", key.schema) for key in (UNIT, REGISTERS)},
         "end_marks": ("more words for the end of a program", _MARKS),

@@ -253,7 +253,8 @@ def _check(work: _Work, found: "Jobs") -> int:
 
     jobs = found.jobs
     outcome, ledger, language = _Outcome(), _ledger(work.options), work.style.language
-    write(outcome.watched(ledger.watched(jobs, _results(jobs, work))), work.outputs, work.style)
+    results = outcome.watched(ledger.watched(jobs, _results(jobs, work)))
+    write(results, work.outputs, work.style._replace(help_uri=found.help_uri))
     printer.write(ledger.closed(language), err=True)
     if found.passed_over and not work.style.quiet:
         from sim.cli.check.jobs import passed_over_text

@@ -95,6 +95,11 @@ class Jobs(NamedTuple):
     near: list[SettingsFile]
     passed_over: list[str]
 
+    @property
+    def help_uri(self) -> str:
+        """Address of the pages of findings: of several settings files that of the first which has one."""
+        return next((near.help_uri for near in self.near if near.help_uri), "")
+
 
 def jobs_of(names: Sequence[str], options: CheckOptions) -> Jobs:
     """The jobs of names.
@@ -249,7 +254,7 @@ _FIELDS: Final = {
     "wire.spark_gap_mm": "spark_gap_um",
 }
 """Keys of settings, and the fields of `CheckSettings` that have their values."""
-_OF_FOLDER: Final = ("exclude", "include", "baseline", "machines", "dialects")
+_OF_FOLDER: Final = ("exclude", "include", "baseline", "machines", "dialects", "help_uri")
 """Keys of settings that say something of the folder, beside what a file is checked with."""
 _WIRE: Final = ("wire.diameter_mm", "wire.spark_gap_mm")
 _KEYS: Final = tuple(each for key in KEYS if key != "root" for each in (_WIRE if key == "wire" else (key,)))
@@ -351,8 +356,8 @@ def _of_folder(near: SettingsFile, key: str) -> str:
     if isinstance(value, Path):
         working = Path.cwd().resolve()
         return _toml((value.relative_to(working) if value.is_relative_to(working) else value).as_posix())
-    if value is None:
-        return _toml(None)
+    if value is None or isinstance(value, str):
+        return _toml(value)
     return _toml(tuple(getattr(each, "text", each) for each in value))
 
 

@@ -43,7 +43,7 @@ def render(results: Iterable[CheckResult], options: Options) -> Iterator[str]:
     rules = tuple(sorted(CODES))
     run = _Run(options.language, rules)
     head = {
-        "tool": {"driver": _driver(options.language, rules)},
+        "tool": {"driver": _driver(options, rules)},
         "language": options.language,
         "columnKind": "unicodeCodePoints",
     }
@@ -115,15 +115,16 @@ def _settings(name: str) -> dict[str, Any]:
     return {"location": _location(name), "roles": ["userSpecifiedConfiguration"]}
 
 
-def _driver(language: Language, rules: Sequence[str]) -> dict[str, Any]:
+def _driver(options: Options, rules: Sequence[str]) -> dict[str, Any]:
     """The tool component (§3.19)."""
+    language = options.language
     notices = {name: term(name, language) for name in _checks()} | {_HIDDEN: Words(language)("findings.total-silenced")}
     return {
         "name": "drycut",
         "version": __version__,
         "semanticVersion": __version__,
         "language": language,
-        "rules": [_rule(code, language) for code in rules],
+        "rules": [_rule(code, options) for code in rules],
         "notifications": [
             {"id": id_, "shortDescription": {"text": _plain_message(text)}} for id_, text in notices.items()
         ],
@@ -145,8 +146,9 @@ def _literal(text: str) -> str:
     return text.replace("{", "{{").replace("}", "}}")
 
 
-def _rule(code: str, language: Language) -> dict[str, Any]:
-    of = page(code, language)
+def _rule(code: str, options: Options) -> dict[str, Any]:
+    of = page(code, options.language)
+    address = {"helpUri": options.help_uri.replace("{code}", code)} if options.help_uri else {}
     markdown = f"{of.why.strip()}\n\n{of.mend.strip()}"
     first, *_ = of.why.strip().split("\n\n")
     return {
@@ -155,6 +157,7 @@ def _rule(code: str, language: Language) -> dict[str, Any]:
         "shortDescription": {"text": _plain_message(of.title)},
         "fullDescription": {"text": _plain_message(" ".join(first.split()))},
         "help": {"text": _plain_message(markdown), "markdown": _literal(markdown)},
+        **address,
         "defaultConfiguration": {"level": CODES[code].severity.value},
     }
 

@@ -165,6 +165,8 @@ class Options(NamedTuple):
         Of the text format: with colours; no line for files without a finding and no summary; with a table of counts.
     width
         Of the text format: cells of a line.
+    help_uri
+        Of SARIF: address of the page of a finding, with ``{code}`` for its code; empty where there are no such pages.
     """
 
     language: Language = "en"
@@ -172,3 +174,4 @@ class Options(NamedTuple):
     quiet: bool = False
     statistics: bool = False
     width: int = WIDTH
+    help_uri: str = ""

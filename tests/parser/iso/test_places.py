@@ -56,6 +56,11 @@ def test_a_g92_whose_place_cannot_be_read_is_not_mended_to_another() -> None:
     assert {one.code for one in found} & {"ISO102", "ISO113"} == {"ISO102"}
 
 
+def test_two_bare_g92_in_one_block_are_told_and_not_mended() -> None:
+    found = read("G91G92I0G91G92I0\nG1X5\nX-5\nM02").findings
+    assert [one.edits for one in found if one.code == "ISO113"] == [(), ()]
+
+
 def test_a_g92_with_a_place_or_one_that_never_runs_is_not_called_bare() -> None:
     told = {one.code for one in read("G92 Z0\nG90 G92 Y1\nG01 X9\nM02\nG92\n").findings}
     assert "ISO113" not in told

@@ -1,5 +1,6 @@
 """What a check looks at, with which settings, and what of it fails: as a shop adopts it."""
 
+import json
 import re
 from pathlib import Path
 
@@ -137,3 +138,29 @@ def test_a_shop_has_machines_of_its_own_by_name(shop: Path) -> None:
     (shop / "drycut.toml").write_text('machines = "nowhere"\n', "ascii")
     code, _, err = drycut("check", "a.3b", cwd=shop)
     assert (code, "machines is a folder" in err) == (2, True)
+
+
+@pytest.mark.parametrize("address", ["https://wiki.shop/drycut/{code}", "http://10.0.0.7:8080/?q={code}#mend"])
+def test_a_shop_has_pages_of_findings_of_its_own(shop: Path, address: str) -> None:
+    (shop / "drycut.toml").write_text(f'help_uri = "{address}"\n', "ascii")
+    (shop / "jigs" / "drycut.toml").write_text('help_uri = "https://other/{code}"\n', "ascii")
+    code, out, _ = drycut("check", ".", "jigs/b.TAP", "--format", "sarif", cwd=shop)
+    rules = json.loads(out)["runs"][0]["tool"]["driver"]["rules"]
+    assert code == 0
+    assert {rule["helpUri"] for rule in rules} == {address.replace("{code}", rule["id"]) for rule in rules}
+    shown = drycut("check", "a.3b", "--show-settings", cwd=shop)[1]
+    assert re.search(rf'help_uri = "{re.escape(address)}" +# drycut.toml', shown)
+
+
+@pytest.mark.parametrize(
+    "address", ["wiki/{code}", "https://wiki/", "https://wiki/{code} x", "https://wiki/{code}{code}"]
+)
+def test_an_address_that_is_none_is_refused(shop: Path, address: str) -> None:
+    (shop / "drycut.toml").write_text(f'help_uri = "{address}"\n', "ascii")
+    code, _, err = drycut("check", "a.3b", cwd=shop)
+    assert (code, "help_uri is an address" in err, "{code}" in err) == (2, True, True)
+
+
+def test_rules_have_no_address_where_a_shop_has_no_pages(shop: Path) -> None:
+    rules = json.loads(drycut("check", "a.3b", "--format", "sarif", cwd=shop)[1])["runs"][0]["tool"]["driver"]["rules"]
+    assert not any("helpUri" in rule for rule in rules)

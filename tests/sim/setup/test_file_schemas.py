@@ -35,6 +35,7 @@ fail_on = "warning"
 include = ["*.TAP"]
 exclude = ["old"]
 baseline = "known.json"
+help_uri = "https://wiki/{code}"
 dialect = "fast-wire"
 unit = "um"
 registers_mm = { D1 = 0.1 }
