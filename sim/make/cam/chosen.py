@@ -55,6 +55,12 @@ def _near(place_um: Floats, kept_um: Floats) -> tuple[Ints, Ints]:
 
 USUAL_LEAD_UM: Final = 2000.0
 """How long leads are where nobody asks: room for a start hole of 3 mm, and little to cut (assumed)."""
+CENTRE_UM: Final = 5000.0
+"""A hole that is no wider than twice this is threaded in its middle, as shops drill start holes of small openings.
+
+Of a larger one that lead would cost more than it saves: there the start hole stands near the edge (usual in wire EDM
+handbooks; the bound is assumed).
+"""
 BEYOND_UM: Final = 10.0
 """A lead is longer than the largest offset by this much."""
 _SHORTER: Final = (1.0, 0.5, 0.25)  # leads to corners, where there is less room
@@ -63,6 +69,7 @@ _NOWHERE: Final = np.empty((0, 2))
 
 _MOST_ROUNDS: Final = 5  # figures that were moved may lie near each other: ever fewer do
 _FOOT_UM: Final = 10.0  # more than what is straight across moves as a place becomes whole µm
+_SAME_BALL_UM: Final = 0.01  # circles that differ by no more are one
 _NEARLY: Final = 0.8  # of the largest circle that any entry has beside it: so large a one is large enough
 
 
@@ -93,12 +100,23 @@ class Wanted(NamedTuple):
         """How long leads are where there is room."""
         return max(USUAL_LEAD_UM, self.least_um) if self.lead_um is None else self.lead_um
 
+    @property
+    def centre_um(self) -> float:
+        """Holes with no more room than this in any direction are threaded in their middle."""
+        return CENTRE_UM if self.lead_um is None else 0.0
+
+    @property
+    def widest_um(self) -> float:
+        """How much room matters: more than that is as good."""
+        return max(self.most_um, self.centre_um + _SAME_BALL_UM)
+
 
 def chosen(room: Room, side: Floats, figures: Ints, wanted: Wanted, kept_um: Floats) -> dict[int, Thread]:
     """A thread point for each of the figures that has room for it, in whole µm, across from an entry.
 
-    It lies as far from the entry as is wanted, and from all contours no less, so that the start hole has room. Where no
-    entry has so much room beside it, the thread point lies in the middle of what there is. The few longest curves of
+    Of a small hole it lies in the middle, where nobody asks for another lead. Else it lies as far from the entry as is
+    wanted, and from all contours no less, so that the start hole has room. Where no entry has so much room beside it,
+    the thread point lies in the middle of what there is. The few longest curves of
     each figure are looked at, and the middles of all of those that have room at none of them. CannotCutError,
     ``short-lead``, where a lead that is asked for is shorter than the least.
 
@@ -106,10 +124,10 @@ def chosen(room: Room, side: Floats, figures: Ints, wanted: Wanted, kept_um: Flo
     """
     if wanted.most_um < wanted.least_um:
         raise CannotCutError(Refusal("short-lead", (), (("least_mm", f"{mm(wanted.least_um):g}"),)))
-    found = _chosen(room, starts(room, side, figures, wanted.reach_um), wanted, _NOWHERE)
+    found = _chosen(room, side, starts(room, side, figures, wanted.reach_um), wanted, _NOWHERE)
     left = np.array([at for at in figures.tolist() if at not in found], dtype=np.int64)
     if len(left):
-        found |= _chosen(room, middles(room, side, left, wanted.reach_um), wanted, _NOWHERE)
+        found |= _chosen(room, side, middles(room, side, left, wanted.reach_um), wanted, _NOWHERE)
     return _apart(room, side, found, wanted, kept_um)
 
 
@@ -121,21 +139,24 @@ def _apart(room: Room, side: Floats, found: dict[int, Thread], wanted: Wanted, k
             break
         staying_um = np.array([each.place_um for at, each in found.items() if at not in moving]).reshape(-1, 2)
         entries = middles(room, side, np.array(sorted(moving)), wanted.reach_um)
-        moved = _chosen(room, entries, wanted, np.concatenate([kept_um, staying_um]))
+        moved = _chosen(room, side, entries, wanted, np.concatenate([kept_um, staying_um]))
         if not moved:
             break
         found = found | moved
     return found
 
 
-def _chosen(room: Room, found: Entries, wanted: Wanted, kept_um: Floats) -> dict[int, Thread]:
+def _chosen(room: Room, side: Floats, found: Entries, wanted: Wanted, kept_um: Floats) -> dict[int, Thread]:
     """A thread point for each figure that has room for it across from one of the entries, apart from those kept."""
-    figure, most = room.figure[found.row], wanted.most_um
-    ball = balls_um(room, found.place_um, found.out, most + wanted.spare_um)
+    figure = room.figure[found.row]
+    ball = balls_um(room, found.place_um, found.out, wanted.widest_um + wanted.spare_um)
     largest = np.zeros(int(room.figure[-1]) + 1)
     np.maximum.at(largest, figure, ball)
+    is_small = (side[figure] > 0.0) & (largest[figure] <= wanted.centre_um)
+    most = np.where(is_small, largest[figure] - _SAME_BALL_UM, wanted.most_um)
     order = np.lexsort([np.arange(len(ball)), ball < _NEARLY * largest[figure], ball < most, figure])
-    found, figure, length = found.take(order), figure[order], np.minimum(ball[order] - wanted.spare_um, most)
+    length = np.minimum(ball - wanted.spare_um, np.where(is_small, ball, most))[order]
+    found, figure = found.take(order), figure[order]
     place, entries, far = _in_whole_um(room, found, length)
     is_free = are_free(room, lines_between(place, entries.begin_um), wanted.reach_um)
     fits = np.flatnonzero((far >= wanted.least_um) & is_free & are_apart(place, kept_um))

@@ -197,9 +197,31 @@ def test_the_wire_comes_to_the_middle_of_the_longest_line_as_long_a_way_as_is_as
     assert (inner.place_um, inner.entry.place_um) == (Point(6000, 3500), Point(6000, 2000))
 
 
-def test_it_threads_a_small_hole_in_its_middle() -> None:
-    (thread,) = threads_of(drawing(), [figure(1, 1, 1, circle(5000, 7000, 900))], Making(), REACH_UM)
-    assert thread.place_um == Point(5000, 7000)
+@pytest.mark.parametrize(
+    "contour",
+    [
+        circle(5000, 7000, 900),
+        circle(5000, 7000, 5000),
+        box(0, 2000, 10000, 10000),
+        box(-25000, 6000, 60000, 2000),
+        polygon(
+            [(5000 + 4000 * x, 7000 + 4000 * y) for x, y in ((1, 0), (0.5, 0.75**0.5), (-0.5, 0.75**0.5))]
+            + [(5000 + 4000 * x, 7000 + 4000 * y) for x, y in ((-1, 0), (-0.5, -(0.75**0.5)), (0.5, -(0.75**0.5)))]
+        ),
+    ],
+    ids=["circle 1.8", "circle 10", "square", "slot", "hexagon"],
+)
+def test_a_hole_up_to_ten_mm_wide_is_threaded_in_its_middle(contour: Curves) -> None:
+    (thread,) = threads_of(drawing(), [figure(1, 1, 1, contour)], Making(), REACH_UM)
+    assert math.dist(thread.place_um, (5000, 7000)) <= 1.0
+
+
+def test_wider_holes_and_parts_are_threaded_near_the_edge_and_leads_asked_for_are_as_long() -> None:
+    wide, part = box(0, 0, 10100, 10100), box(20000, 0, 4000, 4000)
+    found = threads_of(drawing(), [figure(1, 1, 1, wide), figure(2, 2, 0, part)], Making(), REACH_UM)
+    assert [math.dist(each.place_um, each.entry.place_um) for each in found] == [2000.0, 2000.0]
+    (asked,) = threads_of(drawing(), [figure(1, 1, 1, circle(0, 0, 4000))], Making(lead_um=1000.0), REACH_UM)
+    assert math.dist(asked.place_um, asked.entry.place_um) == 1000.0
 
 
 def test_figures_of_one_waste_are_threaded_a_start_hole_apart() -> None:
