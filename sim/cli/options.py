@@ -114,7 +114,11 @@ def length_um(text: str) -> float:
 
 def setting_options(keys: Iterable[Key]) -> tuple[Any, ...]:
     """An option for each key that has one, in their order; what it takes is of the kind of the key's values."""
-    return tuple(click.option(key.option, **_taking(key.kind)) for key in keys if key.option)
+    return tuple(
+        click.option(*filter(None, (key.option, key.older)), parameter(key), **_taking(key.kind))
+        for key in keys
+        if key.option
+    )
 
 
 def _taking(kind: ValueKind) -> dict[str, Any]:

@@ -24,7 +24,7 @@ SideWish = Literal["nesting", "inside", "outside"]
 DirectionWish = Literal["one-side", "ccw", "cw"]
 Returning = Literal["back", "one-way"]
 LeadIn = Literal["perpendicular", "point", "arc", "tangent"]
-Corners = Literal["sharp", "round"]
+Corners = Literal["sharp", "round", "chamfer"]
 Form = Literal["compact", "aligned", "detailed"]
 Encoding = Literal["utf-8", "gbk"]
 Compensation = Literal["worked-in", "kept"]
@@ -221,7 +221,14 @@ PROGRAM = Section(
         Key("lead_mm", Number(LEAD_MM, "mm", MM_AS_UM), "making.lead_um", default=None, option="--lead-length"),
         Key("overcut_mm", Number(OVERCUT_MM, "mm", MM_AS_UM), "making.overcut_um", default=0.0, option="--overcut"),
         Key("tab_mm", Number(OVERCUT_MM, "mm", MM_AS_UM), "making.tab_um", default=0.0, option="--tab"),
-        Key("corners", OneOf(CORNERS), "making.corners", default=_USUAL.corners, option="--corners"),
+        Key(
+            "corners",
+            OneOf(CORNERS),
+            "making.corners",
+            default=_USUAL.corners,
+            option="--corner",
+            older="--corners",
+        ),
         Key("form", OneOf(FORMS), "writing.form", default=_AS_USUAL.form, option="--form"),
         Key("end_code", Name(), "writing.end_code", default=None, option="--end-code"),
         Key("pause_code", Name(), "writing.pause_code", default=None, option="--pause-code"),

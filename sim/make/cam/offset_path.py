@@ -20,7 +20,8 @@ from controller.offset.shifted import Side
 from parser.geometry.along import along_um, directions, places, places_at
 from parser.geometry.curves import Curves, Floats, Ints, total_before
 from parser.toolpath import Point
-from sim.make.cam.convex import Met, beside_convex, met_near, with_corners, with_ends
+from sim.make.cam.convex import Met, beside_convex, met_near, with_ends
+from sim.make.cam.corners import with_corners
 from sim.make.cam.model import CannotCutError, Figure, Refusal
 from sim.setup.making import Corners
 

@@ -40,6 +40,8 @@ class Key:
         How it is found in what the section fills, where that is no attribute; None where there is nothing to write.
     option
         The option that takes its place on the command line, such as ``--gap``; empty where there is none.
+    older
+        Another name of that option, which it had before and which still holds; empty where there is none.
     form
         The field that takes its place on the page of ``drycut open``; empty where there is none.
     """
@@ -50,6 +52,7 @@ class Key:
     default: Any = REQUIRED
     get: Callable[[Any], Any] | None = None
     option: str = ""
+    older: str = ""
     form: str = ""
 
     @property

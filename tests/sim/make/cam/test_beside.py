@@ -13,7 +13,7 @@ from parser.geometry.curves import Curves
 from sim.make.cam.convex import beside_convex
 from sim.make.cam.model import CannotCutError
 from sim.make.cam.offset_path import SHORT_UM, offset_path
-from sim.setup.making import Corners
+from sim.setup.making import CORNERS, Corners
 
 WITHIN_UM = 0.3
 """How far a way lies off the true offset at most."""
@@ -74,6 +74,33 @@ def test_sharp_corners_take_no_more_of_the_part_and_stay_near_it(seed: int) -> N
     assert off.min() >= by_um - WITHIN_UM - DRAWN_UM
     assert off.max() <= by_um * 1.43
     assert region(way).buffer(0.05).contains(region(offset_path(figure(closed, inside=False), by_um, "round")))
+
+
+def test_a_chamfer_is_the_mitred_corner_cut_across_at_the_offset() -> None:
+    places = [(0.0, 0.0), (9000.0, 0.0), (9000.0, 4000.0), (6000.0, 7000.0), (0.0, 7000.0)]
+    way = region(offset_path(figure(contour(places), inside=False), 100.0, "chamfer"))
+    wanted = shapely.Polygon(places).buffer(100.0, join_style="mitre", mitre_limit=3.0)
+    ring = np.array(places)
+    for before, corner, behind in zip(np.roll(ring, 1, axis=0), ring, np.roll(ring, -1, axis=0), strict=True):
+        out = sum((corner - other) / np.hypot(*(corner - other)) for other in (before, behind))
+        out /= np.hypot(*out)
+        far, across = corner + 100.0 * out, np.array([-out[1], out[0]])
+        wanted -= shapely.Polygon([far + 500.0 * across, far - 500.0 * across, far + 500.0 * out])
+    assert shapely.symmetric_difference(way, wanted).area < 1e-3
+    assert len(way.exterior.coords) == 2 * len(places) + 1
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_chamfers_lie_between_round_and_sharp_corners(seed: int) -> None:
+    rng = random.Random(seed)
+    closed, by_um = star(rng, rng.randint(3, 12), arcs=True), 120.0
+    ways = {corners: offset_path(figure(closed, inside=False), by_um, corners) for corners in CORNERS}
+    off = shapely.distance(shapely.points(flat(ways["chamfer"])), shapely.LinearRing(flat(closed)))
+    assert is_closed(ways["chamfer"])
+    assert off.min() >= by_um - WITHIN_UM - DRAWN_UM
+    assert off.max() <= by_um / np.cos(np.pi / 8.0) + WITHIN_UM
+    assert region(ways["chamfer"]).buffer(0.05).contains(region(ways["round"]))
+    assert region(ways["sharp"]).buffer(0.05).contains(region(ways["chamfer"]))
 
 
 def test_a_sharp_corner_that_would_cut_the_other_side_of_a_gap_stays_round() -> None:
