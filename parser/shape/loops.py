@@ -10,13 +10,15 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from parser.geometry.curves import Bools, Curves, Floats, Ints, total_before, turned_about
+from parser.geometry.along import places
+from parser.geometry.curves import Bools, Curves, Floats, Ints, extents, is_inside, total_before, turned_about
 from parser.geometry.distance import distance_to_curves
 from parser.geometry.near import cell_keys
-from parser.shape.contours import CLOSED_WITHIN_UM, runs
+from parser.shape.contours import CLOSED_WITHIN_UM, contour_rows, runs
 from parser.toolpath import Toolpath
 
 _LEAD_IN_BLOCKS = 4  # at most; the loop begins no later
+_MOST_PAIRS = 1_000_000  # of blocks of a loop and corners of the turns within it
 _ROUNDING_UM = 1.0
 
 
@@ -83,9 +85,50 @@ def find_loops(toolpath: Toolpath, contour_of_row: Ints, wanted: Ints, within_um
         )
         earlier = met < last
         first[earlier], last[earlier] = begin[earlier] + skipped, met[earlier]
+    long = np.flatnonzero((first == begin) & (number > _LEAD_IN_BLOCKS))
+    around = _around_turns(toolpath, contour_of_row, begin[long]) if len(long) else {}
+    for at in long[np.isin(begin[long], list(around))].tolist():
+        first[at], last[at] = around[int(begin[at])]
     closed = np.flatnonzero(last < len(toolpath))
     contour, begin, first, last = (column[closed] for column in (contour, begin, first, last))
     return Loops(contour, first, last, part_sides(toolpath, begin, first, last))
+
+
+def rounds_from_within(toolpath: Toolpath) -> Ints:
+    """First rows (k,) of the first loops of contours whose wire is threaded within them, as in a hole."""
+    contour = contour_rows(toolpath)
+    loops = find_loops(toolpath, contour, np.arange(contour.max(initial=-1) + 1))
+    begin = toolpath.start_um[runs(toolpath)[loops.contour, 0]]
+    led = loops.part_side != 0
+    inside = _is_inside(toolpath, _ring(toolpath, loops.first, loops.last), begin)
+    first: Ints = loops.first[led & inside]
+    return first
+
+
+def _around_turns(toolpath: Toolpath, contour_of_row: Ints, begin: Ints) -> dict[int, tuple[int, int]]:
+    """First and last row of the loop round all of the way to it, by the row that a contour begins with.
+
+    Of the contours that begin with the rows `begin` (k,). A hole without a core is cut so: the wire takes the slug away
+    in turns of which none closes, and then goes round.
+    """
+    wanted = np.isin(contour_of_row, contour_of_row[begin])
+    begins = np.full(int(contour_of_row.max(initial=-1)) + 1, len(toolpath))
+    begins[contour_of_row[begin]] = begin
+    found: dict[int, tuple[int, int]] = {}
+    for first, last in zip(*loops_in_order(toolpath, np.where(wanted, contour_of_row, -1)), strict=True):
+        start = int(begins[contour_of_row[first]])
+        if first - start > _LEAD_IN_BLOCKS and start not in found and _holds(toolpath, start, first, last):
+            found[start] = int(first), int(last)
+    return found
+
+
+def _holds(toolpath: Toolpath, begin: int, first: int, last: int) -> bool:
+    """Whether the corners of the way from one row to the start of a loop lie within the loop."""
+    ring, way_um = toolpath.picked(slice(first, last + 1)), toolpath.start_um[begin:first]
+    low, high = extents(ring)
+    if (way_um < low.min(axis=0)).any() or (way_um > high.max(axis=0)).any() or len(ring) * len(way_um) > _MOST_PAIRS:
+        return False
+    return bool(is_inside(ring, way_um).all())
 
 
 def _first_met(toolpath: Toolpath, part: _Part, first: Ints, run_um: Floats, within_um: float) -> Ints:
@@ -150,7 +193,7 @@ def part_sides(toolpath: Toolpath, begin: Ints, first: Ints, last: Ints) -> Ints
     return np.where(first > begin, side, 0.0).astype(np.int64)
 
 
-def _ring(toolpath: Toolpath, first: Ints, last: Ints) -> _Ring:
+def _ring(toolpath: Curves, first: Ints, last: Ints) -> _Ring:
     """Blocks of the loops (k,) from `first` to `last`, the last of each cut off where the first begins."""
     number = last - first + 1
     of = np.repeat(np.arange(len(first)), number)
@@ -160,7 +203,7 @@ def _ring(toolpath: Toolpath, first: Ints, last: Ints) -> _Ring:
     return _Ring(row, of, start, end, _turn(toolpath, row, end))
 
 
-def _is_inside(toolpath: Toolpath, ring: _Ring, place_um: Floats) -> NDArray[np.bool_]:
+def _is_inside(toolpath: Curves, ring: _Ring, place_um: Floats) -> NDArray[np.bool_]:
     """Whether places (k, 2) lie inside their loops."""
     place = place_um[ring.of]
     radial = toolpath.center_um[ring.row] - place
@@ -170,7 +213,7 @@ def _is_inside(toolpath: Toolpath, ring: _Ring, place_um: Floats) -> NDArray[np.
     return inside
 
 
-def _turn(toolpath: Toolpath, row: Ints, end: Floats) -> Floats:
+def _turn(toolpath: Curves, row: Ints, end: Floats) -> Floats:
     """Signed angles (m,) that the blocks turn up to the places `end` (m, 2), at most a full turn; 0 on lines."""
     sweep = np.clip(toolpath.sweep_rad[row], -2.0 * np.pi, 2.0 * np.pi)
     radial = end - toolpath.center_um[row]
@@ -191,7 +234,7 @@ def _doubled_areas(start: Floats, end: Floats, turn: Floats, radius: Floats) -> 
 _CELLS = 1 << 31  # more cells than any path has across
 
 
-def loops_in_order(toolpath: Toolpath, contour: Ints) -> tuple[Ints, Ints]:
+def loops_in_order(toolpath: Curves, contour: Ints) -> tuple[Ints, Ints]:
     """First and last rows (m,) of loops that follow each other: each ends where one of its rows began.
 
     `contour` (n,) is each row's contour, −1 where it has none.
@@ -207,7 +250,7 @@ def loops_in_order(toolpath: Toolpath, contour: Ints) -> tuple[Ints, Ints]:
     return np.array(first, dtype=np.int64), np.array(last, dtype=np.int64)
 
 
-def latest_return(toolpath: Toolpath, contour: Ints) -> Ints:
+def latest_return(toolpath: Curves, contour: Ints) -> Ints:
     """(n,) for each row the latest row of its contour that starts where it ends; itself for a circle, −1 for none.
 
     Corners within 5 µm of each other share a cell of one of four grids of 10 µm that lie 5 µm apart.
@@ -285,11 +328,9 @@ def _by_corners(toolpath: Toolpath, contour: Ints, at_hole: Bools) -> tuple[Ints
     """
     first, last = loops_in_order(toolpath, contour)
     row = last - 1
-    arcs = toolpath.is_arc[row] & toolpath.is_arc[last]
-    lines = ~toolpath.is_arc[row] & ~toolpath.is_arc[last]
-    back = np.sign(toolpath.sweep_rad[row]) * np.sign(toolpath.sweep_rad[last]) < 0.0
-    center = np.hypot(*(toolpath.center_um[row] - toolpath.center_um[last]).T)
-    out_and_back = (first == row) & (lines | (arcs & back & (center <= CLOSED_WITHIN_UM)))
+    # Short arcs in whole µm have centres that lie far apart: their middles lie together.
+    middle = [places(toolpath, each, np.full(len(each), 0.5)) for each in (row, last)]
+    out_and_back = (first == row) & (np.hypot(*(middle[0] - middle[1]).T) <= CLOSED_WITHIN_UM)
     before = np.append(0, np.cumsum(at_hole))
     is_kept = ~out_and_back & (before[first] == before[last + 1])
     return first[is_kept], last[is_kept]

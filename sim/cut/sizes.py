@@ -184,11 +184,12 @@ _ROUNDS = 4  # of Gauss-Newton; each squares the relative error, at first some Â
 class BoxSize(NamedTuple):
     """Box round a part, round a hole in it, or round an opening in the frame that a slug fell out of.
 
-    `piece` is the index of the part or the slug; `cut_um` and `nominal_um` are widths along X and Y.
+    `piece` is the index of the part or the slug, None where none fell; `cut_um` and `nominal_um` are widths along X
+    and Y.
     """
 
     what: Literal["part", "hole", "opening"]
-    piece: int
+    piece: int | None
     center_um: Point
     cut_um: Point
     nominal_um: Point

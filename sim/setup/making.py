@@ -108,6 +108,8 @@ class Making(NamedTuple):
         How much of each part's outline is left for a last cut behind a stop; 0 for none.
     corners
         How the wire goes round outside corners.
+    no_core
+        Whether small holes are cut without a core: the wire takes the slug away, and nothing falls.
     layers
         What is asked for some layers.
     """
@@ -130,6 +132,7 @@ class Making(NamedTuple):
     overcut_um: float = 0.0
     tab_um: float = 0.0
     corners: Corners = "sharp"
+    no_core: bool = False
     layers: tuple[LayerWish, ...] = ()
 
     @property
@@ -229,6 +232,7 @@ PROGRAM = Section(
             option="--corner",
             older="--corners",
         ),
+        Key("no_core", Truth(), "making.no_core", default=False, option="--no-core"),
         Key("form", OneOf(FORMS), "writing.form", default=_AS_USUAL.form, option="--form"),
         Key("end_code", Name(), "writing.end_code", default=None, option="--end-code"),
         Key("pause_code", Name(), "writing.pause_code", default=None, option="--pause-code"),

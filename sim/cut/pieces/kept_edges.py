@@ -22,18 +22,20 @@ from sim.cut.pieces.pieces import Pieces
 class KeptShape(NamedTuple):
     """A filled outline, and the index of the piece that it is, is in, or fell out of it: of several slugs the largest.
 
-    A part itself still has its holes; each of them is a shape of its own besides.
+    A part itself still has its holes; each of them is a shape of its own besides. No piece fell out of an opening that
+    the wire cleared.
     """
 
     what: Literal["part", "hole", "opening"]
-    piece: int
+    piece: int | None
     outline_um: shapely.Polygon
 
 
 def kept_shapes(pieces: Pieces) -> tuple[KeptShape, ...]:
-    """Shapes in the order of their pieces, each once; a slug out of a part left one of its holes."""
+    """Shapes in the order of their pieces, each once, and cleared openings; a slug of a part left one of its holes."""
     shapes = [*_parts(pieces), *_openings(pieces)]
-    return tuple(sorted(shapes, key=lambda shape: shape.piece))
+    cleared = (KeptShape("opening", None, opening) for opening in pieces.frame.cleared_um)
+    return (*sorted(shapes, key=lambda shape: shape.piece or 0), *cleared)
 
 
 def _parts(pieces: Pieces) -> Iterator[KeptShape]:

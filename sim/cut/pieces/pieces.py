@@ -1,12 +1,13 @@
 """The pieces that the kerf leaves: what each is, which contour frees it and when, and what held it last."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Literal, NamedTuple
 
 import numpy as np
 import shapely
 
-from parser.toolpath import Point
+from parser.shape.loops import rounds_from_within
+from parser.toolpath import Point, Toolpath
 from sim.cut.kerf.swept import Kerf, SweptContours
 from sim.cut.kerf.ways import WireWay
 from sim.cut.pieces.frees import Cutting, FreeMoment, Rest, cut_on_um, moments_of, parted
@@ -80,12 +81,24 @@ class Piece(NamedTuple):
 
 
 class Frame(NamedTuple):
-    """What stays: its polygon, area and mass where the outline of the work is known, and the openings in it."""
+    """What stays.
+
+    Attributes
+    ----------
+    outline_um, area_mm2, mass_g
+        Its polygon, area and mass where the outline of the work is known.
+    openings_um
+        The openings in it.
+    cleared_um
+        Those of them that the wire went round from within, and of which nothing is left that falls: cut without a core,
+        or so small that their slugs are crumbs.
+    """
 
     outline_um: shapely.Polygon | None
     area_mm2: float | None
     mass_g: float | None
     openings_um: tuple[shapely.Polygon, ...]
+    cleared_um: tuple[shapely.Polygon, ...] = ()
 
 
 class Pieces(NamedTuple):
@@ -115,7 +128,9 @@ def pieces_of(kerf: Kerf, work_um: Outline | None, material: Material, pauses: S
     cuts = _Cuts(kerf, kerfs, pauses, material, {})
     found = [_piece(cuts, piece, kind) for piece, kind in zip(loose, kinds, strict=True)]
     pieces = sorted(found, key=lambda piece: piece.freed.t_s)
-    return Pieces(_as_frame(frame, work_um, material), tuple(pieces), len(others) - len(whole))
+    openings = tuple(shapely.Polygon(ring) for ring in frame.interiors)
+    cleared = tuple(_cleared(kerf.toolpath, openings, whole))
+    return Pieces(_as_frame(frame, work_um, material, openings, cleared), tuple(pieces), len(others) - len(whole))
 
 
 def stock_of(kerf: Kerf, work_um: Outline | None) -> shapely.Polygon:
@@ -135,12 +150,30 @@ def _frame(parts: list[shapely.Polygon], stock: shapely.Polygon) -> shapely.Poly
     return max(edged or parts, key=lambda part: part.area, default=shapely.Polygon())
 
 
-def _as_frame(frame: shapely.Polygon, work_um: Outline | None, material: Material) -> Frame:
-    openings = tuple(shapely.Polygon(ring) for ring in frame.interiors)
+def _as_frame(
+    frame: shapely.Polygon,
+    work_um: Outline | None,
+    material: Material,
+    openings: tuple[shapely.Polygon, ...],
+    cleared: tuple[shapely.Polygon, ...],
+) -> Frame:
     if work_um is None:
-        return Frame(None, None, None, openings)
+        return Frame(None, None, None, openings, cleared)
     area = frame.area * 1e-6
-    return Frame(frame, area, material.mass_g(area), openings)
+    return Frame(frame, area, material.mass_g(area), openings, cleared)
+
+
+def _cleared(
+    toolpath: Toolpath, openings: Sequence[shapely.Polygon], whole: Sequence[shapely.Polygon]
+) -> Iterator[shapely.Polygon]:
+    """Openings without any part in them that hold the start of a loop round its own start hole."""
+    places = np.array([part.representative_point() for part in whole], dtype=np.object_)
+    full, _ = shapely.STRtree(places).query(np.array(openings, dtype=np.object_), predicate="contains")
+    empty = [openings[at] for at in np.setdiff1d(np.arange(len(openings)), full).tolist()]
+    if empty:
+        starts = np.asarray(shapely.points(toolpath.start_um[rounds_from_within(toolpath)]), dtype=np.object_)
+        holds, _ = shapely.STRtree(starts).query(np.array(empty, dtype=np.object_), predicate="contains")
+        yield from (empty[at] for at in np.unique(holds).tolist())
 
 
 class _Cuts(NamedTuple):

@@ -115,9 +115,14 @@ def _sided(plan: CutPlan, on_contour: Sequence[FigureCut]) -> Iterator[_Sided]:
 
 
 def _refuse_misfits(plan: CutPlan, on_contour: Sequence[FigureCut]) -> None:
-    """CannotCutError for tabs and overcuts, whose ways back would need the other side, and for leads without lines."""
+    """CannotCutError for tabs, overcuts, holes without a core, and leads without lines.
+
+    Ways back over a tab would need the other side. The turns that take a slug away lie at offsets of their own.
+    """
     if plan.making.tab_um or plan.making.overcut_um:
         raise CannotCutError(Refusal("kept-tab"))
+    if any(cut.is_coreless for cut in plan.cuts):
+        raise CannotCutError(Refusal("kept-no-core"))
     for cut in on_contour:
         if not all(_is_led(pass_) for pass_ in cut.passes):
             raise CannotCutError(Refusal("kept-lead", (cut.thread.place_um,), (("figure", str(cut.figure.number)),)))

@@ -163,6 +163,7 @@ def _figure(cut: FigureCut, of: FigureSum) -> FigureEntry:
         "thread_by": thread.by,
         "side": cut.side.name.lower(),
         "direction": _direction(is_ccw=cut.is_ccw),
+        "no_core": cut.is_coreless,
         "passes": [
             _pass(cut, pass_, time_s, is_cut_off=at >= len(cut.passes))
             for at, (pass_, time_s) in enumerate(zip(passes, times, strict=True))

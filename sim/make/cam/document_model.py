@@ -66,6 +66,7 @@ class FigureEntry(TypedDict):
     thread_by: Annotated[str, one_of("asked", "marked", "chosen", "contour")]
     side: Annotated[str, one_of("left", "right")]
     direction: Sense
+    no_core: bool
     passes: Annotated[list[PassEntry], of_length(1)]
 
 

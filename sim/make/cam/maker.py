@@ -141,18 +141,29 @@ def made_program(
 ) -> MadeProgram | NotMade:
     """A program of a drawing, proved on the machine of a scenario.
 
-    Figures that fail the proof stay uncut where the program of the others passes it.
+    Holes without a core that fail the proof get one. Figures that fail it stay uncut where the program of the others
+    passes it.
 
     Raises FileUnreadableError and DrawingError where there is no drawing, SettingsError where the dialect cannot say
     what it needs.
     """
     request = PlanRequest(path, making, scenario, progress)
     done = _proved(request, wanted)
+    if isinstance(done, MadeProgram) and not done.is_proved and (numbers := _to_core(done)):
+        request = request._replace(with_core=numbers)
+        done = _proved(request, wanted)
     if isinstance(done, MadeProgram) and done.proof is not None and done.proof.at_fault:
         others = _proved(request._replace(at_fault=done.proof.at_fault), wanted)
         if isinstance(others, MadeProgram) and others.is_proved:
             return others
     return done
+
+
+def _to_core(done: MadeProgram) -> frozenset[int]:
+    """Numbers of holes that are cut without a core and fail the proof; of all of them where it names none."""
+    coreless = frozenset(cut.figure.number for cut in done.plan.cuts if cut.is_coreless)
+    at_fault = () if done.proof is None else done.proof.at_fault
+    return coreless.intersection(each.number for each in at_fault) or coreless
 
 
 def _proved(request: PlanRequest, wanted: Wanted) -> MadeProgram | NotMade:

@@ -243,6 +243,8 @@ class FigureCut(NamedTuple):
         In running order.
     cut_off
         Passes over the tab, behind a stop; none where there is no tab.
+    is_coreless
+        Whether the first lead-in takes the slug away, so that nothing falls.
     """
 
     figure: Figure
@@ -251,6 +253,7 @@ class FigureCut(NamedTuple):
     is_ccw: bool
     passes: tuple[PassCut, ...]
     cut_off: tuple[PassCut, ...] = ()
+    is_coreless: bool = False
 
 
 UNCUT: Final = (

@@ -8,6 +8,7 @@ from parser.drawing.model import Drawing
 from parser.drawing.read import read_drawing
 from sim.base.progress import Progress, silent
 from sim.make.cam.contacts import walls
+from sim.make.cam.coreless import coreless
 from sim.make.cam.model import (
     CannotCutError,
     CutPlan,
@@ -29,13 +30,17 @@ from sim.setup.scenario import Scenario
 
 
 class PlanRequest(NamedTuple):
-    """What is asked for: of which drawing, how, on whose machine, whom it tells, and figures that failed a proof."""
+    """What is asked for: of which drawing, how, on whose machine, whom it tells, and what failed a proof.
+
+    `at_fault` are figures that stay uncut, `with_core` numbers of holes that keep their cores.
+    """
 
     path: Path
     making: Making
     scenario: Scenario
     progress: Progress = silent
     at_fault: tuple[NotProved, ...] = ()
+    with_core: frozenset[int] = frozenset()
 
 
 def planned(request: PlanRequest, fit_um: float | None = None) -> CutPlan:
@@ -44,7 +49,7 @@ def planned(request: PlanRequest, fit_um: float | None = None) -> CutPlan:
     Figures that cannot be cut stay uncut, as long as others can. CannotCutError where none can, or where the drawing
     asks for what cannot be.
     """
-    path, making, scenario, progress, at_fault = request
+    path, making, scenario, progress, at_fault, with_core = request
     progress("drawing", 0, 1)
     fit_um = making.tolerance_um if fit_um is None else fit_um
     drawing = read_drawing(path, making.layer, making.gap_um, fit_um=fit_um, unit=making.unit)
@@ -54,12 +59,20 @@ def planned(request: PlanRequest, fit_um: float | None = None) -> CutPlan:
     parts = parts.without(at_fault)
     while True:
         try:
-            return _plan_of(drawing, parts, making, scenario)
+            return _without_cores(_plan_of(drawing, parts, making, scenario), with_core)
         except CannotCutError as error:
             rest = parts.without(error.refusals)
             if len(rest.figures) in {0, len(parts.figures)}:
                 raise
             parts = rest
+
+
+def _without_cores(plan: CutPlan, with_core: frozenset[int]) -> CutPlan:
+    """The plan with small holes cut without a core where that is asked for, but for those that keep theirs."""
+    if not plan.making.no_core:
+        return plan
+    cuts, notes = coreless(plan.cuts, plan.making, with_core)
+    return plan._replace(cuts=cuts, notes=(*plan.notes, *notes))
 
 
 def _plan_of(drawing: Drawing, parts: Parts, making: Making, scenario: Scenario) -> CutPlan:

@@ -14,7 +14,7 @@ from parser.drawing.model import Drawing
 from parser.findings.catalogue import Remark
 from parser.findings.errors import ProgramError, SettingsError
 from parser.findings.findings import Finding, OfAddedOffset, WithoutOffset
-from parser.geometry.along import places
+from parser.geometry.along import outline, places
 from parser.geometry.curves import Bools, Ints
 from parser.program import Program
 from parser.shape.contours import runs
@@ -22,7 +22,7 @@ from parser.toolpath import Point, Toolpath
 from parser.units import mm
 from sim.base.progress import Progress, silent
 from sim.cut.pieces.pieces import Piece, Pieces
-from sim.make.cam.model import CutPlan, NotProved, with_sides
+from sim.make.cam.model import CutPlan, FigureCut, NotProved, with_sides
 from sim.make.cam.target import AsRun, Fault, Proof, Target, as_run, target_of
 from sim.make.convert import Proof as Written
 from sim.measure.compare.compare import compare_program
@@ -75,15 +75,25 @@ def fall_faults(plan: CutPlan, target: Target, pieces: Pieces, reach_um: float) 
         left = target.shapes[loop]
         left = left.buffer(-most_um - reach_um) if kind == "slug" else left
         place = Point(*cut.figure.contour.start_um[0].tolist())
-        if not found and left.area > _CRUMB_UM2:
+        if cut.is_coreless:
+            if found:
+                yield Fault("core", {"number": len(found)}, found[0].freed.wire_um, cut.figure.number)
+        elif not found and left.area > _CRUMB_UM2:
             yield Fault(f"no-{kind}", {}, place, cut.figure.number)
         elif any(piece.kind != kind for piece in found):
             yield Fault(f"not-{kind}", {}, place, cut.figure.number)
-        elif len(found) > max(int(shapely.get_num_geometries(left)), 1):
+        elif len(found) > max(_pieces_of(left, cut, reach_um), 1):
             yield Fault("pieces", {"number": len(found)}, place, cut.figure.number)
     for at, found in fallen.items():
         number = plan.cuts[at].figure.number if at < len(plan.cuts) else 0
         yield Fault("pieces", {"number": len(found)}, found[0].freed.wire_um, number)
+
+
+def _pieces_of(left: shapely.Geometry, cut: FigureCut, reach_um: float) -> int:
+    """In how many pieces what is left falls, where its leads may part it: they may reach across a narrow slug."""
+    leads = [lead for pass_ in cut.passes for lead in (pass_.into, pass_.out) if len(lead)]
+    ways = [shapely.LineString(np.concatenate([outline(lead), lead.end_um[-1:]])) for lead in leads]
+    return int(shapely.get_num_geometries(shapely.difference(left, shapely.union_all(ways).buffer(reach_um))))
 
 
 _MEASURED_UM = 0.05

@@ -120,7 +120,7 @@ class BoxEntry(TypedDict):
     """Width and height of a part, a hole or an opening."""
 
     what: Annotated[str, one_of("part", "hole", "opening")]
-    piece: Ordinal
+    piece: Ordinal | None
     center_um: Point
     cut_um: Point
     nominal_um: Point

@@ -282,7 +282,7 @@ def _sizes(sizes: Sizes) -> SizesEntry:
 def _box(box: BoxSize) -> BoxEntry:
     return {
         "what": box.what,
-        "piece": box.piece + 1,
+        "piece": None if box.piece is None else box.piece + 1,
         "center_um": place(box.center_um),
         "cut_um": place(box.cut_um),
         "nominal_um": place(box.nominal_um),

@@ -218,10 +218,13 @@ def _total(plan: CutPlan, sums: tuple[FigureSum, ...], words: Words, width: int)
 
 
 def _same_passes(plan: CutPlan, words: Words) -> Iterator[str]:
-    """The passes where they are the same for all figures, else the table has them; and the tabs."""
+    """The passes where they are the same for all figures, else the table has them; holes without a core, and tabs."""
     passes = set(map(_passes, plan.cuts))
     if len(passes) == 1:
         yield words("program.passes", passes=passes.pop()) if any(plan.passes_um) else words("program.passes-none")
+    no_core = [cut.figure.number for cut in plan.cuts if cut.is_coreless]
+    if no_core:
+        yield words("program.coreless", figures=_numbers(no_core))
     tabs = [cut.figure.number for cut in plan.cuts if cut.cut_off]
     if tabs:
         yield words("program.tabs", figures=_numbers(tabs), length=f"{mm(plan.making.tab_um):g}")

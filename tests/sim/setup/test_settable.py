@@ -125,6 +125,7 @@ TYPED: dict[str, tuple[list[str], str]] = {
     "overcut_mm": (["500um"], "0.5"),
     "tab_mm": (["3mm"], "3.0"),
     "corners": (["round"], "'round'"),
+    "no_core": ([], "true"),
     "form": (["aligned"], "'aligned'"),
     "end_code": (["MJ"], "'MJ'"),
     "pause_code": (["DP"], "'DP'"),
