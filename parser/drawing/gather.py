@@ -18,8 +18,8 @@ from parser.drawing.dxf.entities import (
     behind,
     reader_of,
 )
-from parser.drawing.model import SAME_WITHIN_UM
-from parser.drawing.plane import Flat, flat_forms, flat_splines, placed_spline, refuse_many
+from parser.drawing.model import SAME_WITHIN_UM, refuse_many
+from parser.drawing.plane import Flat, flat_forms, flat_splines, placed_spline
 from parser.findings.catalogue import Remark
 from parser.geometry.curves import Curves, Floats, Ints, joined
 from parser.text.encoding import printable

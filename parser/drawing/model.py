@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from parser.findings.catalogue import Remark
+from parser.findings.errors import DrawingError
 from parser.geometry.curves import CurveKind, Curves, Ints
 from parser.units import UM_PER_MM
 
@@ -18,6 +19,9 @@ BESIDE_UM = 1.0
 """Curves that run this near beside each other are one drawn twice: a step of a machine, less than any wall is thick."""
 DEFAULT_FLATTEN_UM = 0.1
 """How far lines lie off ellipses and splines at most: little beside the 5 µm that a cut is usually held to."""
+
+MOST_CURVES = 300_000
+"""Lines and arcs that a drawing becomes, those of ellipses and splines among them."""
 
 
 class Unit(NamedTuple):
@@ -195,6 +199,12 @@ class Drawing:
     left_out: tuple[LeftOut, ...] = ()
     marks: tuple[Mark, ...] = ()
     fit: FitFigures | None = None
+
+
+def refuse_many(curves: int) -> None:
+    """DrawingError, without the name of the file, for more curves than are compared."""
+    if curves > MOST_CURVES:
+        raise DrawingError("too-many-curves", most=MOST_CURVES)
 
 
 def running(curves: Curves, row: Ints, backwards: NDArray[np.bool_]) -> Curves:

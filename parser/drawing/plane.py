@@ -17,12 +17,9 @@ from numpy.typing import NDArray
 from parser.drawing.dxf.entities import BEGIN, CENTER, END, MAJOR, MINOR, START, SWEEP, Spline
 from parser.drawing.fit.curves import arcs_of_ellipses, arcs_of_splines
 from parser.drawing.fit.pieces import Fitted, no_curves
-from parser.drawing.model import SAME_WITHIN_UM
-from parser.findings.errors import DrawingError
+from parser.drawing.model import MOST_CURVES, SAME_WITHIN_UM, refuse_many
 from parser.geometry.curves import Bools, Curves, Floats, Ints, curves_between, joined
 
-MOST_CURVES = 300_000
-"""Lines and arcs that a drawing becomes, those of ellipses and splines among them."""
 FARTHEST_UM = 1e10  # 10 km: no part is drawn there, and floating point still tells 0.001 µm apart
 _LONGEST_STEP_RAD = 0.5 * np.pi  # of an ellipse, however small: its lines still go round its centre
 
@@ -85,12 +82,6 @@ def flat_forms(forms: Floats, maps: Floats, which: Ints, tolerance_um: float, fi
         beyond=np.flatnonzero(~near),
         fit_max_um=made.max_um,
     )
-
-
-def refuse_many(curves: int) -> None:
-    """DrawingError, without the name of the file, for more curves than are compared."""
-    if curves > MOST_CURVES:
-        raise DrawingError("too-many-curves", most=MOST_CURVES)
 
 
 def is_near(place: Floats) -> NDArray[np.bool_]:

@@ -90,7 +90,7 @@ def _rings(toolpath: Toolpath, contour: Ints, passes: Passes) -> tuple[Ints, _Ri
     over: dict[int, tuple[list[Pass], list[Pass]]] = {}
     for pass_ in passes.passes:
         over.setdefault(pass_.edge, ([], []))[pass_.is_tab].append(pass_)
-    ring_of_edge = np.full(len(over), -1, dtype=np.int64)
+    ring_of_edge = np.full(max(over, default=-1) + 1, -1, dtype=np.int64)
     own: list[tuple[Pass, ...]] = []
     turn_rad = np.abs(toolpath.sweep_rad)
     for edge, (main, tab) in over.items():

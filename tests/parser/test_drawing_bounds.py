@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from ezdxf.entities.insert import Insert
 
-from parser.drawing import plane
+from parser.drawing import model
 from parser.drawing.dxf import document
 from parser.drawing.dxf.blocks import MOST_NESTED
 from parser.drawing.dxf.entities import Spline
@@ -98,7 +98,7 @@ def test_what_is_more_than_a_drawing_may_hold_is_one_line(
 ) -> None:
     for module in ("parser.drawing.dxf.document", "parser.drawing.dxf.blocks"):
         monkeypatch.setattr(f"{module}.MOST_ENTITIES", most)
-    monkeypatch.setattr(plane, "MOST_CURVES", 1000)
+    monkeypatch.setattr(model, "MOST_CURVES", 1000)
     with pytest.raises(DrawingError) as caught:
         _read(tmp_path, text())
     assert f"part.dxf: {said}" in str(caught.value)

@@ -4,6 +4,7 @@ Where some of them cannot be fitted, the others are.
 """
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -12,9 +13,10 @@ from parser.drawing.dxf.entities import CENTER, END, START, Spline
 from parser.drawing.fit.arcs import Drawn, arcs_of_pieces
 from parser.drawing.fit.pieces import Fitted, Spans, no_curves, pieces_of_ellipses, pieces_of_spans, spans_of
 from parser.drawing.fit.polylines import arcs_of_lines
-from parser.drawing.model import Drawing, DrawnLoop, running
+from parser.drawing.model import Drawing, DrawnLoop, refuse_many, running
 from parser.geometry.curves import Bools, Curves, Floats, Ints, joined
 
+_SAME_DECIMALS = 6  # of µm, to which curves are one but for their places
 _AT_ONCE = 1_000  # curves: lengths along all of them are then told apart, and arrays stay small
 
 
@@ -52,22 +54,74 @@ def several(parts: Sequence[tuple[Fitted, Ints]], refused: Ints) -> tuple[Fitted
 def arcs_of_ellipses(forms: Floats, tolerance_um: float) -> tuple[Fitted, Ints]:
     """Arcs for placed arcs of ellipses (k, 17) within a tolerance of them, each from end to end.
 
-    Behind them the ellipses that have none, as they would need arcs without number.
+    Behind them the ellipses that have none, as they would need arcs without number. Ellipses that are one but for their
+    places are fitted once.
     """
 
     def fitted(which: Ints) -> Fitted:
-        some = forms[which]
+        some = forms[first[which]]
         ends = np.stack([some[:, START], some[:, END]], axis=1)[:, :, :2]
         return arcs_of_pieces(pieces_of_ellipses(some), Drawn(some[:, CENTER][:, :2], ends), tolerance_um)
 
-    return in_batches(len(forms), fitted)
+    moved, center = forms.copy(), forms[:, CENTER]
+    for column in (START, END, CENTER):
+        moved[:, column] -= center
+    first, like = _alike([each.tobytes() for each in np.round(moved, _SAME_DECIMALS) + 0.0])
+    return _placed(*in_batches(len(first), fitted), like, (center - center[first[like]])[:, :2])
+
+
+def _alike(keys: Sequence[bytes]) -> tuple[Ints, Ints]:
+    """Rows (m,) of the first of all curves with the same key, and to which of these each curve (k,) belongs."""
+    number: dict[bytes, int] = {}
+    first: list[int] = []
+    like = np.empty(len(keys), dtype=np.int64)
+    for row, key in enumerate(keys):
+        like[row] = number.setdefault(key, len(first))
+        if like[row] == len(first):
+            first.append(row)
+    return np.array(first, dtype=np.int64), like
+
+
+def _shape(spline: Spline) -> bytes:
+    """The same for splines that are one but for their places."""
+    moved = np.round(spline.control[:, :2] - spline.control[:, :2].mean(axis=0), _SAME_DECIMALS) + 0.0
+    return b"".join([moved.tobytes(), spline.weight.tobytes(), spline.knot.tobytes(), bytes([spline.degree % 256])])
+
+
+def _placed(made: Fitted, refused: Ints, like: Ints, by_um: Floats) -> tuple[Fitted, Ints]:
+    """What some curves became, for each curve (k,) what that one became which it is `like`, moved by `by_um` (k, 2).
+
+    Raises DrawingError, without the name of the file, where they are too many together.
+    """
+    number = int(like.max(initial=-1)) + 1
+    begin, past = (np.searchsorted(made.of, np.arange(number), side=side) for side in ("left", "right"))
+    count = (past - begin)[like]
+    refuse_many(int(count.sum()))
+    of = np.repeat(np.arange(len(like)), count)
+    curves = made.curves.picked(np.arange(len(of)) - np.repeat(np.cumsum(count) - count - begin[like], count))
+    by_um = by_um[of]
+    placed = replace(
+        curves,
+        start_um=curves.start_um + by_um,
+        end_um=curves.end_um + by_um,
+        center_um=curves.center_um + by_um,
+    )
+    return Fitted(placed, of, made.max_um), np.flatnonzero(np.isin(like, refused))
 
 
 def arcs_of_splines(splines: Sequence[Spline], tolerance_um: float) -> tuple[Fitted, Ints]:
     """Lines and arcs for placed splines within a tolerance of them, from end to end; their corners stay corners.
 
     Behind them the splines that have none, as their numbers make no curve, or one that needs arcs without number.
+    Splines that are one but for their places are fitted once.
     """
+    first, like = _alike([_shape(spline) for spline in splines])
+    begin_um = np.array([spline.control[0, :2] for spline in splines]).reshape(-1, 2)
+    made, refused = _arcs_of_splines([splines[row] for row in first.tolist()], tolerance_um)
+    return _placed(made, refused, like, begin_um - begin_um[first[like]])
+
+
+def _arcs_of_splines(splines: Sequence[Spline], tolerance_um: float) -> tuple[Fitted, Ints]:
     origins = np.array([spline.control[:, :2].mean(axis=0) for spline in splines]).reshape(-1, 2)
     spans: dict[int, Spans] = {}
     for row, spline in enumerate(splines):

@@ -102,3 +102,9 @@ def test_a_slit_from_the_edge_into_the_part_and_back_is_meant() -> None:
 def test_a_slit_that_is_left_by_its_own_way_on_to_the_start_hole_is_meant() -> None:
     square = [(0, 0), (0, 5000), (-5000, 5000), (-5000, -5000), (5000, -5000), (5000, 5000), (0, 5000)]
     assert gouges(text_of([(0, 9000), *square[1:], (0, 2000), (0, 9000)])) == {}
+
+
+def test_edges_are_known_by_their_numbers_where_an_edge_has_no_pass() -> None:
+    """A subprogram that is torn off leaves passes over edge 1 alone: it was a fault of the check."""
+    text = "H0=1\nG41G1Y0\nH0Y0M98P1\nG40G1X0\nN1;\nG0 Y1;\nG03 X-10I-1"
+    assert check_file(Job("part.iso", text.encode(), CheckSettings())).outcome == "fail"

@@ -231,10 +231,11 @@ def _form(words: Sequence[str]) -> str:
     names = {word.partition("=")[0] for word in words}
     if {"-o", "--output-file"} & names:
         return "file"
-    if {"--help", "-h", "-"} & names:
+    if {"--help", "-h", "-", "--show-files", "--show-settings"} & names:
         return "text"
     if words[:1] != ("check",):
-        return "json" if "--json" in words else "text"
+        is_value = ("--search", "--json") in pairwise(words)
+        return "json" if "--json" in words and not is_value else "text"
     given = [value for name, value in pairwise(words) if name == "--format"]
     given += [word.removeprefix("--format=") for word in words if word.startswith("--format=")]
     return given[0] if len(given) == 1 and "=" not in given[0] else "text"
