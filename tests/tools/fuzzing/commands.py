@@ -231,6 +231,8 @@ def _form(words: Sequence[str]) -> str:
     names = {word.partition("=")[0] for word in words}
     if {"-o", "--output-file"} & names:
         return "file"
+    if "--diff" in names:
+        return "diff"
     if {"--help", "-h", "-", "--show-files", "--show-settings"} & names:
         return "text"
     if words[:1] != ("check",):

@@ -25,7 +25,10 @@ def ran(arguments: Sequence[str], folder: Path, **environment: str) -> "Complete
 
 
 def broken_by(done: "CompletedProcess[bytes]", folder: Path, form: str = "text") -> Iterator[str]:
-    """Promises that a command broke in a folder; `form` is its format, or "file" where it goes there."""
+    """Promises that a command broke in a folder; `form` is its format, "file" where it goes there, or "diff".
+
+    A diff is to be applied: its lines are those of the program, whatever they hold.
+    """
     out, err = (stream.decode("utf-8", "surrogateescape") for stream in (done.stdout, done.stderr))
     if done.returncode not in _CODES:
         yield f"exit code {done.returncode}: {fault(folder) or err[-400:]}"
@@ -33,9 +36,9 @@ def broken_by(done: "CompletedProcess[bytes]", folder: Path, form: str = "text")
         yield f"a traceback: {err[-400:]!r}"
     if done.returncode == 2 and not err and not out and form != "file":
         yield "a refusal without a word"
-    for name, text in (("stdout", out), ("stderr", err)):
+    for name, text in (("stdout", "" if form == "diff" else out), ("stderr", err)):
         yield from (f"{name} {what}" for what in unclean(text))
-    if done.returncode in (None, 0, 1) and form != "file":
+    if done.returncode in (None, 0, 1) and form not in ("file", "diff"):
         yield from (f"{form} {what}" for what in of_document(form, out) if form != "text" or out)
 
 
