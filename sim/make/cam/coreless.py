@@ -6,7 +6,6 @@ something is left is looked at here in polygons, and proved by the run of the wr
 """
 
 import math
-from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
@@ -17,7 +16,7 @@ from parser.findings.catalogue import Remark
 from parser.geometry.along import outline
 from parser.geometry.curves import Curves, Floats, curves_between, joined
 from sim.make.cam.leads import line
-from sim.make.cam.model import CannotCutError, FigureCut, PassCut, Refusal
+from sim.make.cam.model import CannotCutError, CutPlan, FigureCut, PassCut, Refusal
 from sim.make.cam.offset_path import SHORT_UM
 from sim.make.cam.passes import around, parted, run_back
 from sim.measure.compare.rings import polygon
@@ -35,26 +34,35 @@ _TOUCHING_UM: Final = 2.0  # check calls what runs through each other by 5 µm a
 _LEAST_TURN: Final = 4.0  # steps: from the end of a shorter turn the way would cross its start, and seem to close
 
 
-def coreless(
-    cuts: Sequence[FigureCut], making: Making, with_core: frozenset[int]
-) -> tuple[tuple[FigureCut, ...], tuple[Remark, ...]]:
-    """Cuts of which those of small holes leave no core, and what is to be said of holes that keep theirs.
+def coreless(plan: CutPlan, with_core: frozenset[int]) -> CutPlan:
+    """A plan whose small holes leave no core, with what is to be said of holes that keep theirs.
 
-    `with_core` are numbers of those that do so in any case. CannotCutError, ``no-core-offset``, where the path is the
-    contour itself.
+    `with_core` are numbers of those that do so in any case. So do holes with another contour in them: an island is a
+    part. CannotCutError, ``no-core-offset``, where the path is the contour itself.
     """
-    holes = [cut.figure.runs_inside and cut.figure.number not in with_core for cut in cuts]
-    made = [_without_core(cut, making) if is_asked else cut for cut, is_asked in zip(cuts, holes, strict=True)]
+    contours = [*(cut.figure.contour for cut in plan.cuts), *(each.contour for each in plan.uncut)]
+    places = shapely.STRtree(shapely.points([contour.start_um[0] for contour in contours]).tolist())
+    holes = [cut.figure.runs_inside and cut.figure.number not in with_core for cut in plan.cuts]
+    made = [
+        _without_core(cut, places, plan.making) if is_asked else cut
+        for cut, is_asked in zip(plan.cuts, holes, strict=True)
+    ]
     numbers = [str(cut.figure.number) for cut in made if cut.figure.runs_inside and not cut.is_coreless]
-    return tuple(made), (Remark("core-stays", {"figures": ", ".join(numbers)}),) if numbers else ()
+    notes = (Remark("core-stays", {"figures": ", ".join(numbers)}),) if numbers else ()
+    return plan._replace(cuts=tuple(made), notes=(*plan.notes, *notes))
 
 
-def _without_core(cut: FigureCut, making: Making) -> FigureCut:
-    """The cut of a hole with a lead-in that takes the slug away; as it is where that is too wide, or no way does."""
+def _without_core(cut: FigureCut, places: shapely.STRtree, making: Making) -> FigureCut:
+    """The cut of a hole with a lead-in that takes the slug away; as it is where that is too wide, or no way does.
+
+    `places` has one of each contour: none but its own lies in a hole that can be cut so.
+    """
     reach_um = min(each.by_um for each in cut.passes)
     if reach_um <= 0.0:
         raise CannotCutError(Refusal("no-core-offset"))
     hole = polygon(cut.figure.contour)
+    if len(places.query(hole, predicate="contains_properly")):
+        return cut
     room_um = float(shapely.length(shapely.maximum_inscribed_circle(hole, tolerance=1.0)))
     if 2.0 * room_um > WIDEST_UM + 1.0:
         return cut

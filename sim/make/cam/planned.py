@@ -59,20 +59,13 @@ def planned(request: PlanRequest, fit_um: float | None = None) -> CutPlan:
     parts = parts.without(at_fault)
     while True:
         try:
-            return _without_cores(_plan_of(drawing, parts, making, scenario), with_core)
+            plan = _plan_of(drawing, parts, making, scenario)
+            return coreless(plan, with_core) if making.no_core else plan
         except CannotCutError as error:
             rest = parts.without(error.refusals)
             if len(rest.figures) in {0, len(parts.figures)}:
                 raise
             parts = rest
-
-
-def _without_cores(plan: CutPlan, with_core: frozenset[int]) -> CutPlan:
-    """The plan with small holes cut without a core where that is asked for, but for those that keep theirs."""
-    if not plan.making.no_core:
-        return plan
-    cuts, notes = coreless(plan.cuts, plan.making, with_core)
-    return plan._replace(cuts=cuts, notes=(*plan.notes, *notes))
 
 
 def _plan_of(drawing: Drawing, parts: Parts, making: Making, scenario: Scenario) -> CutPlan:

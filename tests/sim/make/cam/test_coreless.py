@@ -21,6 +21,7 @@ from sim.make.cam import coreless
 from sim.make.cam.maker import MadeProgram, NotMade, made_program, unproved
 from sim.make.wanted import Wanted
 from sim.setup.making import Making
+from sim.setup.picks import pick_of
 
 REACH_UM = 100.0
 TO_3B = Wanted("3b")
@@ -163,6 +164,19 @@ def test_wide_holes_and_odd_forms_keep_their_cores_and_it_is_said(tmp_path: Path
     plan = plan_of(drawn(tmp_path, both), IN_A_DIE)
     assert {cut.figure.number: cut.is_coreless for cut in plan.cuts} == {1: False, 2: False, 3: True}
     assert ("core-stays", {"figures": "1, 2"}) in [(note.name, dict(note.values)) for note in plan.notes]
+
+
+def test_a_hole_with_a_part_in_it_keeps_its_core(tmp_path: Path) -> None:
+    """Turns would run over the island: it is a part, cut or not."""
+
+    def island(space: Modelspace) -> None:
+        in_a_plate(space, "rectangle", 8.0)
+        space.add_circle((20.0, 20.0), 0.8, dxfattribs={"layer": "ISLAND"})
+
+    path = drawn(tmp_path, island)
+    for making in (NO_CORE, NO_CORE._replace(picks=(pick_of("layer:0", "pick"),))):
+        cuts = plan_of(path, making).cuts
+        assert (len(cuts), any(cut.is_coreless for cut in cuts)) == (2 if making.picks else 3, False)
 
 
 @pytest.mark.parametrize(
