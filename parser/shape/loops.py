@@ -193,7 +193,7 @@ def part_sides(toolpath: Toolpath, begin: Ints, first: Ints, last: Ints) -> Ints
     return np.where(first > begin, side, 0.0).astype(np.int64)
 
 
-def _ring(toolpath: Curves, first: Ints, last: Ints) -> _Ring:
+def _ring(toolpath: Toolpath, first: Ints, last: Ints) -> _Ring:
     """Blocks of the loops (k,) from `first` to `last`, the last of each cut off where the first begins."""
     number = last - first + 1
     of = np.repeat(np.arange(len(first)), number)
@@ -203,7 +203,7 @@ def _ring(toolpath: Curves, first: Ints, last: Ints) -> _Ring:
     return _Ring(row, of, start, end, _turn(toolpath, row, end))
 
 
-def _is_inside(toolpath: Curves, ring: _Ring, place_um: Floats) -> NDArray[np.bool_]:
+def _is_inside(toolpath: Toolpath, ring: _Ring, place_um: Floats) -> NDArray[np.bool_]:
     """Whether places (k, 2) lie inside their loops."""
     place = place_um[ring.of]
     radial = toolpath.center_um[ring.row] - place
@@ -213,7 +213,7 @@ def _is_inside(toolpath: Curves, ring: _Ring, place_um: Floats) -> NDArray[np.bo
     return inside
 
 
-def _turn(toolpath: Curves, row: Ints, end: Floats) -> Floats:
+def _turn(toolpath: Toolpath, row: Ints, end: Floats) -> Floats:
     """Signed angles (m,) that the blocks turn up to the places `end` (m, 2), at most a full turn; 0 on lines."""
     sweep = np.clip(toolpath.sweep_rad[row], -2.0 * np.pi, 2.0 * np.pi)
     radial = end - toolpath.center_um[row]
@@ -234,7 +234,7 @@ def _doubled_areas(start: Floats, end: Floats, turn: Floats, radius: Floats) -> 
 _CELLS = 1 << 31  # more cells than any path has across
 
 
-def loops_in_order(toolpath: Curves, contour: Ints) -> tuple[Ints, Ints]:
+def loops_in_order(toolpath: Toolpath, contour: Ints) -> tuple[Ints, Ints]:
     """First and last rows (m,) of loops that follow each other: each ends where one of its rows began.
 
     `contour` (n,) is each row's contour, −1 where it has none.
@@ -250,7 +250,7 @@ def loops_in_order(toolpath: Curves, contour: Ints) -> tuple[Ints, Ints]:
     return np.array(first, dtype=np.int64), np.array(last, dtype=np.int64)
 
 
-def latest_return(toolpath: Curves, contour: Ints) -> Ints:
+def latest_return(toolpath: Toolpath, contour: Ints) -> Ints:
     """(n,) for each row the latest row of its contour that starts where it ends; itself for a circle, −1 for none.
 
     Corners within 5 µm of each other share a cell of one of four grids of 10 µm that lie 5 µm apart.
