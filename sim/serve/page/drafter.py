@@ -106,6 +106,7 @@ def _making(request: PageRequest) -> Making:
         picks=tuple(pick_of(each.strip(), "the program") for each in request["picks"].split(";") if each.strip()),
         passes_um=passes,
         tab_um=from_mm(number_of(tab, OVERCUT_MM, Message("name-tab"))) if tab else 0.0,
+        no_core=request["no_core"] == "yes",
     )
     refuse_odd(making, "the program")
     return making
@@ -121,7 +122,13 @@ def _summary(done: MadeProgram, language: Language) -> list[str]:
     return [*first, *against(done, language), *todo, *told_lines(done.plan, language, _WIDE)]
 
 
-_CONTROLS: Final = {"--gap": "open.join", "--pick": "open.picks", "--drawing-unit": "open.unit"}
+_CONTROLS: Final = {
+    "--gap": "open.join",
+    "--pick": "open.picks",
+    "--drawing-unit": "open.unit",
+    "--no-core": "open.no-core",
+    "--pass": "open.passes",
+}
 """Options of the command line that the page has a control for, and its label."""
 
 

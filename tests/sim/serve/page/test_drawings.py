@@ -157,6 +157,20 @@ def test_passes_and_language_of_the_program_are_those_of_the_form(drawing: Path,
     assert answer("plate.iso", None, program["text"])["size"]["cut_um"] > 2 * 60_000.0
 
 
+def test_holes_are_cut_without_a_core_where_that_is_ticked(tmp_path: Path) -> None:
+    def plate(space: Modelspace) -> None:
+        space.add_lwpolyline([(0, 0), (10, 0), (10, 10), (0, 10)], close=True)
+        space.add_circle((5, 5), 1.0)
+
+    drawing = drawn(tmp_path, plate)
+    found = made(drawing, tmp_path / "made.json", no_core="yes")
+    assert (found["verdict"], found["told"][0]["en"]) == ("pass", "proved")
+    assert any(text["zh"].startswith("无芯切割") for text in found["told"])
+    assert len(found["program"]["text"]) > len(made(drawing, tmp_path / "made.json")["program"]["text"])
+    refused = made(drawing, tmp_path / "made.json", no_core="yes", offset_mm="0")
+    assert "leave “holes up to 10 mm without a core” out, or give “offset of each pass mm”" in refused["told"][0]["en"]
+
+
 def test_a_program_that_is_not_proved_says_so_at_its_head(drawing: Path, tmp_path: Path) -> None:
     found = made(drawing, tmp_path / "made.json", offset_mm="0.2 0.1")  # the first pass sets the part free
     assert (found["verdict"], found["told"][0]["en"]) == ("fail", "not proved: the program fails its own proof")
