@@ -87,8 +87,8 @@ def find_loops(toolpath: Toolpath, contour_of_row: Ints, wanted: Ints, within_um
         first[earlier], last[earlier] = begin[earlier] + skipped, met[earlier]
     long = np.flatnonzero((first == begin) & (number > _LEAD_IN_BLOCKS))
     around = _around_turns(toolpath, contour_of_row, begin[long]) if len(long) else {}
-    for at in long[np.isin(begin[long], list(around))].tolist():
-        first[at], last[at] = around[int(begin[at])]
+    for at in long.tolist() if around else []:
+        first[at], last[at] = around.get(int(begin[at]), (first[at], last[at]))
     closed = np.flatnonzero(last < len(toolpath))
     contour, begin, first, last = (column[closed] for column in (contour, begin, first, last))
     return Loops(contour, first, last, part_sides(toolpath, begin, first, last))
