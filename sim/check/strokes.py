@@ -28,6 +28,7 @@ _SMOOTH_RAD = np.radians(0.2)
 
 
 _LEAST_GAINED = 2
+_MOST_OVERCUT = 8  # blocks
 _SHORT_UM = 20.0  # steps between passes, and arcs so short that whole µm decide their direction
 _SAME_LENGTH_UM = 2.0
 
@@ -282,11 +283,22 @@ def _swapped_leads(toolpath: Toolpath, contour: Ints, joints: _Joints) -> Ints:
     return np.concatenate(found)
 
 
+def _comes_back(toolpath: Toolpath, row: int) -> bool:
+    """Whether the way from a row on runs out over a few blocks, and back over the same ones, as an overcut does."""
+    for number in range(1, min(_MOST_OVERCUT, (len(toolpath) - row) // 2) + 1):
+        turn = row + number
+        off = toolpath.end_um[turn : turn + number] - toolpath.start_um[row:turn][::-1]
+        if not toolpath.is_jump[row] and (np.hypot(*off.T) <= CLOSED_WITHIN_UM).all():
+            return True
+    return False
+
+
 def doubled_findings(program: Program, rows: Ints, passes: Passes) -> Iterator[Finding]:
     """Finding 3B319 at a block that is written as the one before it, where both cannot be sides of one contour.
 
-    A jump, a lead, or a lead and the first side: no CAM cuts one of these in two equal halves. `rows` (n,) is each
-    row's contour, −1 where it is not judged and on jumps.
+    A jump, a lead, or a lead and the first side: no CAM cuts one of these in two equal halves. An overcut that runs on
+    by a block as long as the last side, and back again, is no such slip. `rows` (n,) is each row's contour, −1 where it
+    is not judged and on jumps.
     """
     toolpath = program.toolpath
     by = toolpath.end_um - toolpath.start_um
@@ -299,5 +311,5 @@ def doubled_findings(program: Program, rows: Ints, passes: Passes) -> Iterator[F
         same &= (compensation.side[1:] == compensation.side[:-1]) & (compensation.by_um[1:] == compensation.by_um[:-1])
     parted = {stop.after for stop in toolpath.stops}
     for row in (1 + np.flatnonzero(same)).tolist():
-        if row not in parted:
+        if row not in parted and not _comes_back(toolpath, row):
             yield at_block(toolpath, program.lines, "3B319", row, other=row).with_fact(OddOrder())

@@ -47,6 +47,12 @@ def test_slits_that_are_meant_are_no_findings(text: str) -> None:
     assert codes(text) == []
 
 
+def test_an_overcut_as_long_as_the_last_side_is_no_block_put_in_twice() -> None:
+    *sides, out = SQUARE.split(" ")
+    assert codes(" ".join([*sides, "B5000B0B5000GXL1", "B5000B0B5000GXL3", out, "DD"])) == []
+    assert "3B319" in codes(" ".join([*sides, "B5000B0B5000GXL1", out, "DD"]))
+
+
 def test_a_lead_that_is_put_in_twice_is_found() -> None:
     first, *rest = SQUARE.split()
     assert "3B319" in codes(" ".join([first, first, *rest, "DD"]))
