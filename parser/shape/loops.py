@@ -125,8 +125,12 @@ def _around_turns(toolpath: Toolpath, contour_of_row: Ints, begin: Ints) -> dict
 def _holds(toolpath: Toolpath, begin: int, first: int, last: int) -> bool:
     """Whether the corners of the way from one row to the start of a loop lie within the loop."""
     ring, way_um = toolpath.picked(slice(first, last + 1)), toolpath.start_um[begin:first]
-    low, high = extents(ring)
-    if (way_um < low.min(axis=0)).any() or (way_um > high.max(axis=0)).any() or len(ring) * len(way_um) > _MOST_PAIRS:
+    low, high = (edge(ends, axis=0) for edge, ends in zip((np.min, np.max), extents(ring), strict=True))
+    # The start hole first: a long way may close many small loops, and lies beside all of them.
+    for some_um in (way_um[:1], way_um):
+        if (some_um < low).any() or (some_um > high).any():
+            return False
+    if len(ring) * len(way_um) > _MOST_PAIRS:
         return False
     return bool(is_inside(ring, way_um).all())
 

@@ -285,10 +285,12 @@ def _swapped_leads(toolpath: Toolpath, contour: Ints, joints: _Joints) -> Ints:
 
 def _comes_back(toolpath: Toolpath, row: int) -> bool:
     """Whether the way from a row on runs out over a few blocks, and back over the same ones, as an overcut does."""
+    if toolpath.is_jump[row]:
+        return False
     for number in range(1, min(_MOST_OVERCUT, (len(toolpath) - row) // 2) + 1):
         turn = row + number
         off = toolpath.end_um[turn : turn + number] - toolpath.start_um[row:turn][::-1]
-        if not toolpath.is_jump[row] and (np.hypot(*off.T) <= CLOSED_WITHIN_UM).all():
+        if (np.hypot(*off.T) <= CLOSED_WITHIN_UM).all():
             return True
     return False
 

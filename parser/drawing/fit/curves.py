@@ -3,7 +3,7 @@
 Where some of them cannot be fitted, the others are.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -70,9 +70,9 @@ def arcs_of_ellipses(forms: Floats, tolerance_um: float) -> tuple[Fitted, Ints]:
     return _placed(*in_batches(len(first), fitted), like, (center - center[first[like]])[:, :2])
 
 
-def _alike(keys: Sequence[bytes]) -> tuple[Ints, Ints]:
+def _alike(keys: Sequence[Hashable]) -> tuple[Ints, Ints]:
     """Rows (m,) of the first of all curves with the same key, and to which of these each curve (k,) belongs."""
-    number: dict[bytes, int] = {}
+    number: dict[Hashable, int] = {}
     first: list[int] = []
     like = np.empty(len(keys), dtype=np.int64)
     for row, key in enumerate(keys):
@@ -82,10 +82,10 @@ def _alike(keys: Sequence[bytes]) -> tuple[Ints, Ints]:
     return np.array(first, dtype=np.int64), like
 
 
-def _shape(spline: Spline) -> bytes:
+def _shape(spline: Spline) -> Hashable:
     """The same for splines that are one but for their places."""
     moved = np.round(spline.control[:, :2] - spline.control[:, :2].mean(axis=0), _SAME_DECIMALS) + 0.0
-    return b"".join([moved.tobytes(), spline.weight.tobytes(), spline.knot.tobytes(), bytes([spline.degree % 256])])
+    return moved.tobytes(), spline.weight.tobytes(), spline.knot.tobytes(), spline.degree
 
 
 def _placed(made: Fitted, refused: Ints, like: Ints, by_um: Floats) -> tuple[Fitted, Ints]:

@@ -113,10 +113,10 @@ def _bare_places(given: GivenColumns, run: Flow) -> Iterator[Finding]:
     names = given.listing.of("G")
     names = names[(words.value[names] * 10 == SET_PLACE) & (bare_place(given) & ran)[words.block[names]]]
     in_block = np.bincount(words.block[names], minlength=len(ran))[words.block[names]]
-    for word, fellows in zip(names.tolist(), in_block.tolist(), strict=True):
+    for word, number in zip(names.tolist(), in_block.tolist(), strict=True):
         past = int(words.past[word])
         finding = _of_span(given.listing, "ISO113", (int(words.first[word]), past))
-        yield finding if fellows > 1 else finding._replace(edits=(Edit(past, past, place),))
+        yield finding if number > 1 else finding._replace(edits=(Edit(past, past, place),))
 
 
 def _while_compensated(given: GivenColumns, run: Flow, side: Ints, at: Ints) -> Iterator[Finding]:

@@ -128,9 +128,9 @@ def pieces_of(kerf: Kerf, work_um: Outline | None, material: Material, pauses: S
     cuts = _Cuts(kerf, kerfs, pauses, material, {})
     found = [_piece(cuts, piece, kind) for piece, kind in zip(loose, kinds, strict=True)]
     pieces = sorted(found, key=lambda piece: piece.freed.t_s)
-    openings = tuple(shapely.Polygon(ring) for ring in frame.interiors)
-    cleared = tuple(_cleared(kerf.toolpath, openings, whole))
-    return Pieces(_as_frame(frame, work_um, material, openings, cleared), tuple(pieces), len(others) - len(whole))
+    stays = _as_frame(frame, work_um, material)
+    stays = stays._replace(cleared_um=tuple(_cleared(kerf.toolpath, stays.openings_um, whole)))
+    return Pieces(stays, tuple(pieces), len(others) - len(whole))
 
 
 def stock_of(kerf: Kerf, work_um: Outline | None) -> shapely.Polygon:
@@ -150,24 +150,19 @@ def _frame(parts: list[shapely.Polygon], stock: shapely.Polygon) -> shapely.Poly
     return max(edged or parts, key=lambda part: part.area, default=shapely.Polygon())
 
 
-def _as_frame(
-    frame: shapely.Polygon,
-    work_um: Outline | None,
-    material: Material,
-    openings: tuple[shapely.Polygon, ...],
-    cleared: tuple[shapely.Polygon, ...],
-) -> Frame:
+def _as_frame(frame: shapely.Polygon, work_um: Outline | None, material: Material) -> Frame:
+    openings = tuple(shapely.Polygon(ring) for ring in frame.interiors)
     if work_um is None:
-        return Frame(None, None, None, openings, cleared)
+        return Frame(None, None, None, openings)
     area = frame.area * 1e-6
-    return Frame(frame, area, material.mass_g(area), openings, cleared)
+    return Frame(frame, area, material.mass_g(area), openings)
 
 
 def _cleared(
     toolpath: Toolpath, openings: Sequence[shapely.Polygon], whole: Sequence[shapely.Polygon]
 ) -> Iterator[shapely.Polygon]:
     """Openings without any part in them that hold the start of a loop round its own start hole."""
-    places = np.array([part.representative_point() for part in whole], dtype=np.object_)
+    places = np.asarray(shapely.point_on_surface(whole), dtype=np.object_)
     full, _ = shapely.STRtree(places).query(np.array(openings, dtype=np.object_), predicate="contains")
     empty = [openings[at] for at in np.setdiff1d(np.arange(len(openings)), full).tolist()]
     if empty:

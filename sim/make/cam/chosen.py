@@ -116,9 +116,9 @@ def chosen(room: Room, side: Floats, figures: Ints, wanted: Wanted, kept_um: Flo
 
     Of a small hole it lies in the middle, where nobody asks for another lead. Else it lies as far from the entry as is
     wanted, and from all contours no less, so that the start hole has room. Where no entry has so much room beside it,
-    the thread point lies in the middle of what there is. The few longest curves of
-    each figure are looked at, and the middles of all of those that have room at none of them. CannotCutError,
-    ``short-lead``, where a lead that is asked for is shorter than the least.
+    the thread point lies in the middle of what there is. The few longest curves of each figure are looked at, and the
+    middles of all of those that have room at none of them. CannotCutError, ``short-lead``, where a lead that is asked
+    for is shorter than the least.
 
     Where there is room it lies a start hole away from all others, and from the thread points (k, 2) that are kept.
     """
@@ -153,9 +153,11 @@ def _chosen(room: Room, side: Floats, found: Entries, wanted: Wanted, kept_um: F
     largest = np.zeros(int(room.figure[-1]) + 1)
     np.maximum.at(largest, figure, ball)
     is_small = (side[figure] > 0.0) & (largest[figure] <= wanted.centre_um)
-    most = np.where(is_small, largest[figure] - _SAME_BALL_UM, wanted.most_um)
-    order = np.lexsort([np.arange(len(ball)), ball < _NEARLY * largest[figure], ball < most, figure])
-    length = np.minimum(ball - wanted.spare_um, np.where(is_small, ball, most))[order]
+    # Beside other contours more room than is wanted is no better: the entries stay in their order.
+    room_um = np.where(is_small, largest[figure], np.minimum(largest[figure], wanted.most_um))
+    enough_um = np.where(is_small, room_um - _SAME_BALL_UM, wanted.most_um)
+    order = np.lexsort([np.arange(len(ball)), ball < _NEARLY * room_um, ball < enough_um, figure])
+    length = np.minimum(ball - wanted.spare_um, room_um)[order]
     found, figure = found.take(order), figure[order]
     place, entries, far = _in_whole_um(room, found, length)
     is_free = are_free(room, lines_between(place, entries.begin_um), wanted.reach_um)

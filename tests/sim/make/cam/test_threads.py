@@ -224,6 +224,16 @@ def test_wider_holes_and_parts_are_threaded_near_the_edge_and_leads_asked_for_ar
     assert math.dist(asked.place_um, asked.entry.place_um) == 1000.0
 
 
+def test_the_longest_side_takes_the_lead_though_another_one_has_more_room() -> None:
+    """2.5 mm are room enough for a lead of 2 mm: it went to a shorter side, since that had 5."""
+    part = polygon([(0, 0), (30000, 0), (29000, 10000), (1000, 10000)])
+    found = threads_of(
+        drawing(), [figure(1, 1, 0, part), figure(2, 2, 0, box(0, -15000, 30000, 10000))], Making(), REACH_UM
+    )
+    assert found[0].entry.place_um == Point(15000, 0)
+    assert found[0].place_um == Point(15000, -2000)
+
+
 def test_figures_of_one_waste_are_threaded_a_start_hole_apart() -> None:
     """The middles of all sides lie across from one another, 1 mm apart: each pair would share one place."""
     frame, island = box(0, 0, 20000, 10000), box(1000, 1000, 18000, 8000)
