@@ -430,6 +430,13 @@ def test_the_page_names_every_key_of_its_tables(part: Made) -> None:
     assert list(unlike(types, "TableData", {"name": "t", "columns": [{"head": {"en": "h"}}]})) != []
 
 
+def test_each_table_has_its_place_where_nothing_falls_out_of_an_opening() -> None:
+    """The slug of a hole this small is a crumb: sizes, and no pieces. The page stopped short of its tables."""
+    page = made("B110B0B110GXL1\nB110B0B440GYNR1\nB110B0B110GXL3\nDD\n", kerf=True)
+    assert (len(page.report["remains"]["pieces"]), "boxes" in page.tables) == (0, True)
+    assert [name for name in page.tables if f'data-table="{name}"' not in page.html] == []
+
+
 @pytest.mark.deeper
 def test_a_page_of_many_blocks_stays_small() -> None:
     """25 bytes a block in its tables make 2.5 MB of 100,000 blocks; pictures are no larger for more blocks."""
