@@ -18,6 +18,7 @@ from sim.setup.picks import Pick, Picks
 from sim.setup.toml.keys import Key, Section
 from sim.setup.toml.kinds import MM_AS_UM, FileName, Lengths, Name, Number, OneOf, Places, Text, Truth, Whole, Wholes
 from sim.setup.toml.reader import PLACE_MM, Bound, number, tables
+from sim.setup.wire import WIRE_LAG_UM
 
 Language = Literal["3b", "4b", "iso"]
 SideWish = Literal["nesting", "inside", "outside"]
@@ -110,6 +111,9 @@ class Making(NamedTuple):
         How the wire goes round outside corners.
     no_core
         Whether small holes are cut without a core: the wire takes the slug away, and nothing falls.
+    lag_um
+        How far the wire lags behind its guides: the program leads these so that the wire cuts the part; 0 for a wire
+        that stays straight.
     layers
         What is asked for some layers.
     """
@@ -133,6 +137,7 @@ class Making(NamedTuple):
     tab_um: float = 0.0
     corners: Corners = "sharp"
     no_core: bool = False
+    lag_um: float = 0.0
     layers: tuple[LayerWish, ...] = ()
 
     @property
@@ -233,6 +238,7 @@ PROGRAM = Section(
             older="--corners",
         ),
         Key("no_core", Truth(), "making.no_core", default=False, option="--no-core"),
+        Key("lag_um", Number(WIRE_LAG_UM, "µm"), "making.lag_um", default=0.0, option="--lag"),
         Key("form", OneOf(FORMS), "writing.form", default=_AS_USUAL.form, option="--form"),
         Key("end_code", Name(), "writing.end_code", default=None, option="--end-code"),
         Key("pause_code", Name(), "writing.pause_code", default=None, option="--pause-code"),
@@ -299,6 +305,7 @@ def refuse_odd(making: Making, where: str) -> None:
     number(making.gap_um, GAP_UM, _named(where, "name-gap"))
     number(mm(making.overcut_um), OVERCUT_MM, _named(where, "name-overcut"))
     number(mm(making.tab_um), OVERCUT_MM, _named(where, "name-tab"))
+    number(making.lag_um, WIRE_LAG_UM, _named(where, "name-lag"))
     if making.lead_um is not None:
         number(mm(making.lead_um), LEAD_MM, _named(where, "name-lead"))
     for passes_um in (making.passes_um, *(wish.passes_um for wish in making.layers)):

@@ -40,10 +40,22 @@ class WireForces(NamedTuple):
         (S. Timoshenko, Strength of Materials; a wire lag from gap force and tension: S. Sarkar et al., Precision
         Engineering 35 (2011) 339).
         """
+        span_mm = self._span_mm(thickness_mm)
+        return from_mm(self.pressure_n_mm * thickness_mm * (2.0 * span_mm - thickness_mm) / (8.0 * self.tension_n))
+
+    def face_share(self, thickness_mm: float) -> float:
+        """The lag at the upper and lower face of the work, as a share of that in its middle. SettingsError as above.
+
+        There the same string stands q h (L − h) / (4 T) behind.
+        """
+        span_mm = self._span_mm(thickness_mm)
+        return 2.0 * (span_mm - thickness_mm) / (2.0 * span_mm - thickness_mm)
+
+    def _span_mm(self, thickness_mm: float) -> float:
         span_mm = thickness_mm if self.guide_span_mm is None else self.guide_span_mm
         if span_mm < thickness_mm:
             raise SettingsError("guides-closer-than-work", thickness_mm=thickness_mm, span_mm=span_mm)
-        return from_mm(self.pressure_n_mm * thickness_mm * (2.0 * span_mm - thickness_mm) / (8.0 * self.tension_n))
+        return span_mm
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,6 +113,10 @@ class Wire:
                 most_um=WIRE_LAG_UM.high,
             )
         return lag_um
+
+    def face_share(self, thickness_mm: float) -> float | None:
+        """The lag at the faces of the work as a share of that in its middle; None where nothing tells."""
+        return self.lag.face_share(thickness_mm) if isinstance(self.lag, WireForces) else None
 
 
 DEFAULT_WIRE = Wire(diameter_um=180.0, spark_gap_um=10.0)

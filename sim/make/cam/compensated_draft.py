@@ -14,12 +14,14 @@ from parser.geometry.along import directions
 from parser.geometry.curves import Curves, joined, jump_between
 from parser.toolpath import Point, Stop
 from parser.write.draft import Draft
+from sim.make.cam.guides import guided
 from sim.make.cam.model import CannotCutError, CutPlan, FigureCut, PassCut, Refusal
 
 
 def draft_of_plan(plan: CutPlan) -> Draft:
-    """The draft of a plan, its offsets worked into the path."""
-    return draft_of_cuts(plan.cuts)
+    """The draft of a plan, its offsets worked into the path, and the lag of the wire where one is asked for."""
+    lag_um = plan.making.lag_um
+    return draft_of_cuts([guided(cut, lag_um) for cut in plan.cuts] if lag_um else plan.cuts)
 
 
 def draft_of_cuts(cuts: Sequence[FigureCut]) -> Draft:

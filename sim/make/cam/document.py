@@ -25,6 +25,7 @@ from sim.make.cam.document_model import (
     FigureEntry,
     FindingEntry,
     FitEntry,
+    LagEntry,
     LeftEntry,
     LeftOutEntry,
     PassEntry,
@@ -126,7 +127,7 @@ def document(made: MadeProgram | NotMade, say: Say) -> ProgramDocument:
         "left_out": [] if plan is None else [_left_out(each, say) for each in plan.left_out],
         "length_um": None if done is None else rounded(float(done.program.toolpath.length_um.sum())),
         "time_s": None if run is None else rounded(run.ran_s),
-        "proof": None if proof is None else _proof(proof, say),
+        "proof": None if done is None or proof is None else _proof(proof, say, done.plan.making.lag_um),
         "notes": [] if plan is None else [_note(note, say) for note in (*plan.drawing.notes, *plan.notes)],
         "refusal": _refusal(made.refusal, say) if isinstance(made, NotMade) else None,
     }
@@ -222,7 +223,7 @@ def _entity(entity: Entity) -> EntityEntry:
     return {"kind": entity.kind, "handle": entity.handle, "layer": entity.layer}
 
 
-def _proof(proof: Proof, say: Say) -> ProofEntry:
+def _proof(proof: Proof, say: Say, lag_um: float) -> ProofEntry:
     edges = proof.comparison
     return {
         "verdict": proof.verdict,
@@ -233,6 +234,7 @@ def _proof(proof: Proof, say: Say) -> ProofEntry:
         "tolerance_um": None if edges is None else rounded(edges.request.tolerance_um),
         "pieces": _pieces(proof),
         "wire": _wire(proof.wire),
+        "lag": _lag(proof, lag_um) if lag_um else None,
         "start_mm": None
         if proof.run is None or proof.run.scenario.start_mm is None
         else place(proof.run.scenario.start_mm),
@@ -254,6 +256,15 @@ def _pieces(proof: Proof) -> PiecesEntry | None:
 
 def _wire(wire: Wire) -> WireEntry:
     return {"diameter_um": rounded(wire.diameter_um), "spark_gap_um": rounded(wire.spark_gap_um)}
+
+
+def _lag(proof: Proof, lag_um: float) -> LagEntry:
+    faces = proof.faces
+    return {
+        "lag_um": rounded(lag_um),
+        "face_lag_um": None if faces is None else rounded(faces.lag_um),
+        "face_edge_to_drawing_um": None if faces is None else rounded(faces.comparison.edge_max_um),
+    }
 
 
 def _fault(fault: Fault, say: Say) -> FindingEntry:

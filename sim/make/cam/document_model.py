@@ -139,6 +139,14 @@ class FindingEntry(TypedDict):
     place_um: Point | None
 
 
+class LagEntry(TypedDict):
+    """The lag of the wire that the program corrects, and the edge at the faces of the work, where it is known."""
+
+    lag_um: Positive
+    face_lag_um: Size | None
+    face_edge_to_drawing_um: Size | None
+
+
 class ProofEntry(TypedDict):
     """How the program was held against its drawing, as written and as cut."""
 
@@ -150,6 +158,7 @@ class ProofEntry(TypedDict):
     tolerance_um: Positive | None
     pieces: PiecesEntry | None
     wire: WireEntry
+    lag: LagEntry | None
     start_mm: Point | None
     findings: list[FindingEntry]
     unproved: list[Text]

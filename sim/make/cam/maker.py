@@ -22,16 +22,17 @@ from parser.findings.catalogue import Remark
 from parser.findings.errors import SettingsError
 from parser.program import Program, load_program
 from parser.text.encoding import printable
-from parser.write.draft import Draft
+from parser.toolpath import Toolpath
+from parser.write.draft import Draft, Written
 from parser.write.iso import IsoChoices, iso_choices
 from sim.base.progress import Progress, silent
-from sim.make.cam.compensated_draft import added_draft, draft_of_plan, kept_draft
+from sim.make.cam.compensated_draft import added_draft, draft_of_cuts, draft_of_plan, kept_draft
 from sim.make.cam.model import CannotCutError, CutPlan, Refusal
 from sim.make.cam.passes import figure_cut
 from sim.make.cam.planned import PlanRequest, planned
 from sim.make.cam.proof import ToProve, proved
 from sim.make.cam.target import Proof, least_um, target_of
-from sim.make.convert import Proof as Written
+from sim.make.convert import Proof as HeldAgainst
 from sim.make.convert import proof as held_against
 from sim.make.wanted import (
     Wanted,
@@ -68,8 +69,8 @@ def fits_um(tolerance_um: float, curves: int) -> tuple[float, ...]:
     return (tolerance_um, *(each for each in nearer if each > surely_um), surely_um)
 
 
-def path_off_um(program: Program, plan: CutPlan, drawn: Drawing, reach_um: float) -> float | None:
-    """How far a written path lies at most from where the drawing wants it, both ways, gaps aside.
+def path_off_um(wire_way: Toolpath, plan: CutPlan, drawn: Drawing, reach_um: float) -> float | None:
+    """How far a written way of the wire lies at most from where the drawing wants it, both ways, gaps aside.
 
     None where figures end at different offsets, or where it cannot be worked out.
     """
@@ -79,7 +80,7 @@ def path_off_um(program: Program, plan: CutPlan, drawn: Drawing, reach_um: float
         return None
     try:
         fit_request = FitRequest(plan.making.tolerance_um, fitted=False)
-        found = compare_program(program.toolpath, edge_um.pop(), target.drawing, fit_request)
+        found = compare_program(wire_way, edge_um.pop(), target.drawing, fit_request)
     except SettingsError:
         return None
     return max(found.max_um - target.gap_um, 0.0) if np.isfinite(found.max_um) else None
@@ -106,15 +107,23 @@ class MadeProgram(NamedTuple):
         What its run shows; None where nobody asked for one.
     drawn
         The drawing without the fit of arcs; None where it was not read so.
+    unled
+        The same program for a wire that does not lag: the way of the wire where the program leads guides; else None.
     """
 
     data: bytes
     program: Program
     plan: CutPlan
     draft: Draft
-    written: Written
+    written: HeldAgainst
     proof: Proof | None = None
     drawn: Drawing | None = None
+    unled: Program | None = None
+
+    @property
+    def wire_way(self) -> Toolpath:
+        """The way on which the wire is to cut."""
+        return (self.unled or self.program).toolpath
 
     @property
     def is_proved(self) -> bool:
@@ -173,7 +182,8 @@ def _proved(request: PlanRequest, wanted: Wanted) -> MadeProgram | NotMade:
         return done
     done = _with_drawn(done, request.path)
     assert done.drawn is not None  # noqa: S101 - read before
-    given = ToProve(done.program, done.plan, done.drawn, done.written, wanted.bound_um)
+    wire_way = None if done.unled is None else done.unled.toolpath
+    given = ToProve(done.program, done.plan, done.drawn, done.written, wanted.bound_um, wire_way)
     return done._replace(proof=proved(given, request.scenario, request.progress))
 
 
@@ -213,10 +223,20 @@ def _fitted(request: PlanRequest, wanted: Wanted, fit_um: float) -> MadeProgram:
     plan = plan._replace(notes=(*plan.notes, *_own_codes(wanted)))
     plan = plan._replace(is_added=wanted.keeps and wanted.language == "4b" and any(plan.passes_um))
     draft = begun(_drafted(plan, wanted), wanted)
+    text, program = _read_back(draft, request.path.stem, wanted)
+    off = held_against(draft, text, program.toolpath)
+    made = MadeProgram(encoded(text.text, wanted), program, plan, draft, off)
+    if not plan.making.lag_um:
+        return made
+    _, unled = _read_back(begun(draft_of_cuts(plan.cuts), wanted), request.path.stem, wanted)
+    return made._replace(unled=unled)
+
+
+def _read_back(draft: Draft, name: str, wanted: Wanted) -> tuple[Written, Program]:
+    """The text of a draft, and the program that reading it gives."""
     text = written(draft, wanted)
     data = text.text.encode(wanted.encoding, "replace")
-    program = load_program(data, f"{request.path.stem}.{wanted.language}", read_with(draft, wanted))
-    return MadeProgram(encoded(text.text, wanted), program, plan, draft, held_against(draft, text, program.toolpath))
+    return text, load_program(data, f"{name}.{wanted.language}", read_with(draft, wanted))
 
 
 def _is_surely_within(done: MadeProgram) -> bool:
@@ -228,7 +248,7 @@ def _is_surely_within(done: MadeProgram) -> bool:
 def _is_rounded_off(done: MadeProgram, scenario: Scenario, wanted: Wanted) -> bool:
     """Whether the written path lies past the tolerance, by no more than rounding explains."""
     assert done.drawn is not None  # noqa: S101 - read before
-    off_um = path_off_um(done.program, done.plan, done.drawn, scenario.wire.reach_um)
+    off_um = path_off_um(done.wire_way, done.plan, done.drawn, scenario.wire.reach_um)
     return off_um is not None and 0.0 < off_um - done.plan.making.tolerance_um <= wanted.bound_um
 
 
@@ -252,6 +272,8 @@ def _with_drawn(done: MadeProgram, path: Path) -> MadeProgram:
 
 def _drafted(plan: CutPlan, wanted: Wanted) -> Draft:
     """What is written of a plan. CannotCutError where the controller cannot add its offsets."""
+    if plan.making.lag_um and (wanted.keeps or not all(pass_.by_um for cut in plan.cuts for pass_ in cut.passes)):
+        raise CannotCutError(Refusal("kept-lag"))
     if not wanted.keeps or not any(plan.passes_um):
         return draft_of_plan(plan)
     wishes = tuple(wish._replace(passes_um=(0.0,) * len(wish.passes_um)) for wish in plan.making.layers)

@@ -25,6 +25,7 @@ from parser.geometry.along import along_um, places_at
 from parser.geometry.curves import Curves, curves_between, joined, total_before
 from parser.geometry.distance import distance_to_curves
 from parser.toolpath import Point
+from sim.make.cam.guides import OVERLAP_LAGS
 from sim.make.cam.leads import lead_in, lead_out
 from sim.make.cam.model import CannotCutError, Figure, FigureCut, PassCut, Refusal, Thread, way_of
 from sim.make.cam.offset_path import SHORT_UM, offset_path
@@ -192,7 +193,7 @@ def _cut_off(rounds: Rounds, way: _Parted, last: PassCut, making: Making) -> Pas
     Where it comes out at the far end of the tab, it goes back in its own kerf.
     """
     nothing = way.tab.picked(slice(0))
-    over, _ = parted(way.open, making.overcut_um)
+    over, _ = parted(way.open, _overcut_um(making))
     out = joined([run_back(over), lead_out(rounds.thread, way.tab)])
     if last.is_back:
         return PassCut(last.by_um, True, nothing, run_back(way.tab), joined([way.tab, over, out]))
@@ -246,8 +247,13 @@ def _whole_passes(rounds: Rounds, making: Making) -> tuple[PassCut, ...]:
         is_back = making.returning == "back" and number % 2 == 1
         along = run_back(ahead) if is_back else ahead
         into, out = (lead(rounds.thread, along) for lead in (lead_in, lead_out))
-        if making.overcut_um and number == len(rounds.ahead) - 1:
-            over, _ = parted(along, making.overcut_um)
+        if (over_um := _overcut_um(making)) and number == len(rounds.ahead) - 1:
+            over, _ = parted(along, over_um)
             along, out = joined([along, over]), joined([run_back(over), out])
         passes.append(PassCut(by_um, is_back, into, along, out))
     return tuple(passes)
+
+
+def _overcut_um(making: Making) -> float:
+    """How far the last pass runs on over its start: as is asked for, and until a wire that lags is on its way."""
+    return max(making.overcut_um, OVERLAP_LAGS * making.lag_um)

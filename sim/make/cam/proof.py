@@ -4,6 +4,7 @@ What falls, and when: of each figure its slug or its part, at the end of its own
 """
 
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
@@ -23,7 +24,7 @@ from parser.units import mm
 from sim.base.progress import Progress, silent
 from sim.cut.pieces.pieces import Piece, Pieces
 from sim.make.cam.model import CutPlan, FigureCut, NotProved, with_sides
-from sim.make.cam.target import AsRun, Fault, Proof, Target, as_run, target_of
+from sim.make.cam.target import AsRun, Faces, Fault, Proof, Target, as_run, target_of
 from sim.make.convert import Proof as Written
 from sim.measure.compare.compare import compare_program
 from sim.measure.compare.findings import by_block, by_entity, compare_cut, drawing_findings
@@ -104,6 +105,7 @@ class ToProve(NamedTuple):
     """What is proved: a program that was read back, the plan that it was written of, and its drawing, unfitted.
 
     `written` says how far the program's path lies off the plan's, of which whole steps explain `rounding_um`.
+    `wire_way` is where the wire is to cut, where the program leads guides that it lags behind; else None.
     """
 
     program: Program
@@ -111,6 +113,7 @@ class ToProve(NamedTuple):
     drawn: Drawing
     written: Written
     rounding_um: float
+    wire_way: Toolpath | None = None
 
 
 def proved(given: ToProve, scenario: Scenario, progress: Progress = silent) -> Proof:
@@ -135,12 +138,15 @@ def proved(given: ToProve, scenario: Scenario, progress: Progress = silent) -> P
         return ran
     path, of_path = _path(given, target, run, how)
     cut, of_cut = _as_cut(given, target, run, how)
+    faces = _faces(given, target, scenario, how)
     done = ran._replace(
         path=path,
         comparison=cut,
         findings=(*ran.findings, *of_cut.findings),
         faults=(*ran.faults, *of_path.faults, *of_cut.faults),
         unproved=(*ran.unproved, *of_path.unproved, *of_cut.unproved),
+        notes=(*ran.notes, *_of_faces(faces)),
+        faces=faces,
     )
     return done._replace(at_fault=_at_fault(done, run, of_cut.findings, plan))
 
@@ -163,7 +169,7 @@ def _at_fault(proof: Proof, run: DryRun, of_cut: tuple[Finding, ...], plan: CutP
     others = [finding for finding in proof.counting if finding not in of_cut]
     if proof.verdict != "fail" or others or not all(fault.figure for fault in proof.faults):
         return ()
-    cut_of, by_number = _cut_of_block(run), {cut.figure.number: cut.figure for cut in plan.cuts}
+    cut_of, by_number = _cut_of_block(run.toolpath), {cut.figure.number: cut.figure for cut in plan.cuts}
     what = {plan.cuts[cut_of[each.block]].figure.number: each.code for each in proof.counting}
     what.update((fault.figure, fault.name) for fault in reversed(proof.faults))
     if len(what) == len(by_number):
@@ -187,6 +193,12 @@ def _written_faults(given: ToProve) -> tuple[Fault, ...]:
     return (Fault("written", {"off": off_um, "bound": given.rounding_um}),) if off_um > given.rounding_um else ()
 
 
+def _of_faces(faces: Faces | None) -> tuple[Remark, ...]:
+    if faces is None:
+        return ()
+    return (Remark("faces", {"lag": faces.lag_um, "off": faces.comparison.max_um}),)
+
+
 def _by_cut(given: ToProve, run: DryRun) -> tuple[Fault, ...]:
     """That the program has more contours than figures are cut, or fewer."""
     found, wanted = len(runs(run.toolpath)), len(given.plan.cuts)
@@ -203,10 +215,11 @@ def _unlooked(run: DryRun) -> Iterator[Remark]:
 def _path(given: ToProve, target: Target, run: DryRun, how: AsRun) -> tuple[Comparison | None, _Found]:
     """The path held against the offset of the drawing: as it is written where the controller adds the offset.
 
-    It may lie off by the tolerance of the fit, by what rounding to steps moves it, and by gaps of the drawing.
+    It may lie off by the tolerance of the fit, by what rounding to steps moves it, and by gaps of the drawing. Of a
+    program for a wire that lags it is the way of the wire, written as the program is, from which that was worked out.
     """
     on_contour = min(how.edge_um, default=0.0) <= 0.0
-    toolpath = given.program.toolpath if on_contour else run.toolpath
+    toolpath = given.wire_way or (given.program.toolpath if on_contour else run.toolpath)
     making, written = given.plan.making, given.written
     rounding_um = min(written.off_um, given.rounding_um)
     bound_um = making.tolerance_um + rounding_um + target.gap_um + target.drawing.flatten_um + _MEASURED_UM
@@ -218,13 +231,16 @@ def _path(given: ToProve, target: Target, run: DryRun, how: AsRun) -> tuple[Comp
         except SettingsError as error:
             return first, _Found(tuple(faults), (), (Remark("path", {"why": error.message}),))
         first = first or found
-        faults += _off_faults(given, target, run, found, np.array(how.edge_um) == by_um)
+        faults += _off_faults(given, toolpath, found, np.array(how.edge_um) == by_um)
     return first, _Found(tuple(faults))
 
 
-def _off_faults(given: ToProve, target: Target, run: DryRun, found: Comparison, of_cut: Bools) -> Iterator[Fault]:
-    """The worst place of the path past its bound, both ways, and leads that cut into parts, of some of the cuts."""
-    number = _cut_of_block(run)
+def _off_faults(given: ToProve, toolpath: Toolpath, found: Comparison, of_cut: Bools) -> Iterator[Fault]:
+    """The worst place of the path past its bound, both ways, and leads that cut into parts, of some of the cuts.
+
+    Blocks are named where they are those of the program.
+    """
+    number, names_blocks = _cut_of_block(toolpath), given.wire_way is None
     bound_um = found.request.tolerance_um
     for name, deviations in (("path", by_block(found)), ("uncut", by_entity(found))):
         here = [
@@ -237,20 +253,20 @@ def _off_faults(given: ToProve, target: Target, run: DryRun, found: Comparison, 
         worst = max(here, key=lambda each: each.deviation_um)
         at = number[worst.block]
         values = {"off": worst.deviation_um, "bound": bound_um, **_mm(worst.where_um)}
-        yield Fault(name, values, worst.where_um, given.plan.cuts[at].figure.number, worst.block)
+        yield Fault(name, values, worst.where_um, given.plan.cuts[at].figure.number, worst.block * names_blocks)
     for gouge in found.gouges:
         at = number[gouge.block]
         if of_cut[at]:
             values = {"depth": gouge.depth_um, **_mm(gouge.where_um)}
-            yield Fault("lead", values, gouge.where_um, given.plan.cuts[at].figure.number, gouge.block)
+            yield Fault("lead", values, gouge.where_um, given.plan.cuts[at].figure.number, gouge.block * names_blocks)
 
 
-def _cut_of_block(run: DryRun) -> Ints:
+def _cut_of_block(toolpath: Toolpath) -> Ints:
     """Index of the cut that each block is of, by its number; of a jump that of the cut behind it."""
-    block = run.toolpath.source.block
-    cut = np.searchsorted(runs(run.toolpath)[:, 1], np.arange(len(run.toolpath)), side="right")
+    block = toolpath.source.block
+    cut = np.searchsorted(runs(toolpath)[:, 1], np.arange(len(toolpath)), side="right")
     of_block = np.zeros(int(block.max(initial=0)) + 1, dtype=np.int64)
-    of_block[block] = np.minimum(cut, int(cut[~run.toolpath.is_jump].max(initial=0)))
+    of_block[block] = np.minimum(cut, int(cut[~toolpath.is_jump].max(initial=0)))
     return of_block
 
 
@@ -266,7 +282,22 @@ def _as_cut(given: ToProve, target: Target, run: DryRun, how: AsRun) -> tuple[Co
     faults += fall_faults(given.plan, target, run.remains.pieces, how.scenario.wire.reach_um)
     if not how.is_one_edge:
         return None, _Found(tuple(faults))
-    tolerance_um = given.plan.making.held_to_um
-    drawing_target = DrawingTarget(Path(target.drawing.name), tolerance_um=tolerance_um, fit=False)
-    found = compare_cut(run.program, run.remains, target.drawing, drawing_target)
+    found = compare_cut(run.program, run.remains, target.drawing, _held_to(given, target))
     return found, _Found(tuple(faults), tuple(drawing_findings(run.program, found)))
+
+
+def _held_to(given: ToProve, target: Target) -> DrawingTarget:
+    return DrawingTarget(Path(target.drawing.name), tolerance_um=given.plan.making.held_to_um, fit=False)
+
+
+def _faces(given: ToProve, target: Target, scenario: Scenario, how: AsRun) -> Faces | None:
+    """The edge at the faces of the work, by a run with the lag there; None where that is not known."""
+    lag_um, share = given.plan.making.lag_um, scenario.wire.face_share(scenario.thickness_mm)
+    if not lag_um or share is None or not how.is_one_edge:
+        return None
+    face_wire = replace(how.scenario.wire, lag=share * lag_um)
+    run = dry_run(given.program, replace(how.scenario, wire=face_wire), measured=False)
+    if run.remains is None or run.ended is not None:
+        return None
+    found = compare_cut(run.program, run.remains, target.drawing, _held_to(given, target))
+    return None if found is None else Faces(share * lag_um, found)

@@ -60,6 +60,13 @@ class Fault(NamedTuple):
     block: int = 0
 
 
+class Faces(NamedTuple):
+    """The edge as cut at the upper and lower face of the work, beside the drawing, where the wire lags by less."""
+
+    lag_um: float
+    comparison: Comparison
+
+
 class Proof(NamedTuple):
     """What reading, checking and running a written program shows, beside its drawing.
 
@@ -85,6 +92,8 @@ class Proof(NamedTuple):
         What the program was run with.
     at_fault
         The figures that fail where others do not, each with what it fails by.
+    faces
+        The edge at the upper and lower face of the work; None where no lag is corrected, or none is known there.
     """
 
     run: DryRun | None
@@ -97,6 +106,7 @@ class Proof(NamedTuple):
     notes: tuple[Remark, ...]
     wire: Wire
     at_fault: tuple[NotProved, ...] = ()
+    faces: Faces | None = None
 
     @property
     def counting(self) -> tuple[Finding, ...]:
@@ -319,14 +329,16 @@ def as_run(scenario: Scenario, plan: CutPlan, toolpath: Toolpath) -> AsRun:
     """How the program of a plan, whose path is read back as this one, is run."""
     for_proof = replace(scenario, kerf=True, drawing=None, offset=None, quiz=(), expect=())
     for_proof = replace(for_proof, start_mm=scenario.start_mm or middle_mm(toolpath, scenario.machine.table))
+    if plan.making.lag_um:
+        for_proof = replace(for_proof, wire=replace(scenario.wire, lag=plan.making.lag_um))
     edge_um = tuple(least_um(cut.figure, plan.making, scenario.wire.reach_um) for cut in plan.cuts)
     least = min(edge_um, default=scenario.wire.reach_um)
     if least <= 0.0:
         return _by_controller(for_proof, plan, edge_um)
-    wire = _wire(scenario.wire, least)
+    wire = _wire(for_proof.wire, least)
     if wire is None:
         return AsRun(replace(for_proof, kerf=False), edge_um, (), (Remark("no-wire", {"offset": least}),))
-    notes = _run_remarks(scenario.wire, wire)
+    notes = (*_run_remarks(for_proof.wire, wire), *_lag_remarks(scenario, plan.making.lag_um))
     if plan.is_added:
         side = plan.cuts[0].side
         for_proof = replace(for_proof, offset=Offset((OffsetPass(least),), side))
@@ -360,6 +372,13 @@ def _wire(wire: Wire, reach_um: float) -> Wire | None:
         return replace(wire, spark_gap_um=gap_um)
     except SettingsError:
         return None
+
+
+def _lag_remarks(scenario: Scenario, lag_um: float) -> tuple[Remark, ...]:
+    if not lag_um:
+        return ()
+    name = "lag-middle" if scenario.wire.face_share(scenario.thickness_mm) is None else "lag"
+    return (Remark(name, {"lag": lag_um}),)
 
 
 def _run_remarks(usual: Wire, wire: Wire) -> tuple[Remark, ...]:

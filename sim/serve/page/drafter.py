@@ -99,13 +99,14 @@ def _make(request: PageRequest) -> dict[str, Any]:
 
 def _making(request: PageRequest) -> Making:
     """How it is to be made. SettingsError for numbers out of their bounds."""
-    passes, tab = offsets_um(request, OR_NONE_MM), request["tab_mm"]
+    passes, tab, lag = offsets_um(request, OR_NONE_MM), request["tab_mm"], request["lag_um"]
     making = Making(
         unit=_target(request).unit,
         gap_um=_target(request).gap_um,
         picks=tuple(pick_of(each.strip(), "the program") for each in request["picks"].split(";") if each.strip()),
         passes_um=passes,
         tab_um=from_mm(number_of(tab, OVERCUT_MM, Message("name-tab"))) if tab else 0.0,
+        lag_um=number_of(lag, WIRE_LAG_UM, Message("name-lag")) if lag else 0.0,
         no_core=request["no_core"] == "yes",
     )
     refuse_odd(making, "the program")
@@ -126,6 +127,7 @@ _CONTROLS: Final = {
     "--gap": "open.join",
     "--pick": "open.picks",
     "--drawing-unit": "open.unit",
+    "--lag": "open.lag",
     "--no-core": "open.no-core",
     "--pass": "open.passes",
 }

@@ -219,3 +219,9 @@ def test_of_a_cusp_at_one_end_alone_it_is_told() -> None:
     arcs = found(Pen().to(9000, 0).arc(9000, 3000, -math.pi))
     assert arcs.row.tolist() == [1]
     assert arcs.at_both_ends.tolist() == [False]
+
+
+def test_an_overcut_on_a_circle_there_and_back_is_silent() -> None:
+    """In whole µm the arc back has its centre 14 µm beside that of the arc there; the arcs lie within 1 µm."""
+    circle = "B1400B0B1400GXL3 B1400B0B5600GYNR3 B1386B0B25GYNR3 B1400B25B25GYSR3 B1400B0B1400GXL1 DD"
+    assert [each.code for each in check_program(parse_program(circle)).findings if each.code == "3B306"] == []

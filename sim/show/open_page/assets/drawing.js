@@ -31,6 +31,7 @@ export function wireDrawing(around) {
   const written = element("#as", HTMLSelectElement);
   const passes = element("#passes", HTMLInputElement);
   const tab = element("#tab", HTMLInputElement);
+  const lag = element("#lag", HTMLInputElement);
   const noCore = element("#no-core", HTMLInputElement);
   const picks = element("#picks", HTMLInputElement);
   const join = element("#join", HTMLInputElement);
@@ -113,7 +114,7 @@ export function wireDrawing(around) {
     // Its offsets are worked into the program; those of the form of the run a controller would add to them.
     making = number;
     const own = { language: written.value, offset_mm: passes.value.trim(), tab_mm: tab.value.trim(), picks: picks.value };
-    const how = { no_core: noCore.checked ? "yes" : "", ...reading() };
+    const how = { lag_um: lag.value.trim(), no_core: noCore.checked ? "yes" : "", ...reading() };
     around.follow(asked.draft({ ...around.values(), drawing: number, ...own, ...how }));
   });
   for (const field of [join, unit]) field.addEventListener("change", look);
