@@ -156,6 +156,7 @@ LAG = Key(
     default=None,
     get=lambda wire: None if isinstance(wire.lag, WireForces) else wire.lag,
     option="--wire-lag",
+    form="lag_um",
 )
 WIRE = Section(
     "wire",

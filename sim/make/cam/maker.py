@@ -272,8 +272,8 @@ def _with_drawn(done: MadeProgram, path: Path) -> MadeProgram:
 
 def _drafted(plan: CutPlan, wanted: Wanted) -> Draft:
     """What is written of a plan. CannotCutError where the controller cannot add its offsets."""
-    if plan.making.lag_um and (wanted.keeps or not all(pass_.by_um for cut in plan.cuts for pass_ in cut.passes)):
-        raise CannotCutError(Refusal("kept-lag"))
+    if plan.making.lag_um:
+        _refuse_unknown_ways(plan, wanted)
     if not wanted.keeps or not any(plan.passes_um):
         return draft_of_plan(plan)
     wishes = tuple(wish._replace(passes_um=(0.0,) * len(wish.passes_um)) for wish in plan.making.layers)
@@ -283,6 +283,14 @@ def _drafted(plan: CutPlan, wanted: Wanted) -> Draft:
     if wanted.iso is None:
         return added_draft(plan, on_contour)
     return kept_draft(plan, on_contour, wanted.iso.profile.rules)
+
+
+def _refuse_unknown_ways(plan: CutPlan, wanted: Wanted) -> None:
+    """CannotCutError where a lag is to be corrected and the controller adds the offsets, nobody knows how."""
+    if wanted.keeps:
+        raise CannotCutError(Refusal("kept-lag"))
+    if not all(pass_.by_um for cut in plan.cuts for pass_ in cut.passes):
+        raise CannotCutError(Refusal("no-lag-offset"))
 
 
 _LONGEST = 120

@@ -32,6 +32,7 @@ from sim.setup.part import DRAWING_UNITS, GAP_UM, DrawingTarget
 from sim.setup.picks import pick_of
 from sim.setup.scenario import Scenario
 from sim.setup.toml.reader import Bound
+from sim.setup.wire import WIRE_LAG_UM
 from sim.show.refusals import why_refused
 from sim.show.replay.tape import drawing_columns
 from sim.show.terminal.program import advice, against, to_check, told_lines
@@ -99,7 +100,7 @@ def _make(request: PageRequest) -> dict[str, Any]:
 
 def _making(request: PageRequest) -> Making:
     """How it is to be made. SettingsError for numbers out of their bounds."""
-    passes, tab, lag = offsets_um(request, OR_NONE_MM), request["tab_mm"], request["lag_um"]
+    passes, tab, lag = offsets_um(request, OR_NONE_MM), request["tab_mm"], request["led_um"]
     making = Making(
         unit=_target(request).unit,
         gap_um=_target(request).gap_um,

@@ -33,6 +33,7 @@ _NAMES: Final = {
     "thickness_mm": Message("name-thickness"),
     "wire_mm": Message("name-wire"),
     "gap_mm": Message("name-spark-gap"),
+    "lag_um": Message("name-lag"),
 }
 """What the fields are called where something is wrong with them."""
 

@@ -98,7 +98,9 @@ def test_a_field_of_the_page_gives_the_same_as_the_option(form: str) -> None:
 def test_the_page_has_the_field_with_what_is_usual(form: str) -> None:
     page, _ = open_page(())
     low, high = kind_of(FIELDS[form]).bound
-    usual = f'inputmode="decimal" size="7" placeholder="{FIELDS[form].default:g}" data-low="{low}" data-high="{high}"'
+    usual = (
+        f'inputmode="decimal" size="7" placeholder="{FIELDS[form].default or 0:g}" data-low="{low}" data-high="{high}"'
+    )
     assert f'<input name="{form}" {usual}>' in page
 
 

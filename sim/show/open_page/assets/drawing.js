@@ -39,6 +39,7 @@ export function wireDrawing(around) {
   let placement = IN_PLACE;
   let number = "";
   let making = "";
+  let led = "";
   /**
    * The text of the last program that was made, and the verdict of its proof.
    * @type {{ text: string | null, verdict: Drafted["verdict"] }}
@@ -113,8 +114,9 @@ export function wireDrawing(around) {
   element("#make", HTMLElement).addEventListener("click", () => {
     // Its offsets are worked into the program; those of the form of the run a controller would add to them.
     making = number;
+    led = lag.value.trim();
     const own = { language: written.value, offset_mm: passes.value.trim(), tab_mm: tab.value.trim(), picks: picks.value };
-    const how = { lag_um: lag.value.trim(), no_core: noCore.checked ? "yes" : "", ...reading() };
+    const how = { led_um: lag.value.trim(), no_core: noCore.checked ? "yes" : "", ...reading() };
     around.follow(asked.draft({ ...around.values(), drawing: number, ...own, ...how }));
   });
   for (const field of [join, unit]) field.addEventListener("change", look);
@@ -165,6 +167,7 @@ export function wireDrawing(around) {
         const { program, told, verdict } = await asked.drafted(making);
         if (program) {
           proved = { text: program.text, verdict };
+          if (led) element("[name=lag_um]", HTMLInputElement).value = led; // it is made for that wire
           around.begin(program);
         }
         made = told;

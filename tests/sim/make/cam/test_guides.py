@@ -274,12 +274,15 @@ def test_its_path_is_no_offset_of_the_drawing_and_without_a_lag_it_fails(tmp_pat
     assert ends[:, 0].max() == pytest.approx(done.wire_way.end_um[:, 0].max() + CORNER_SHARE * 20.0, abs=1.0)
 
 
-@pytest.mark.parametrize("making", [Making(lag_um=20.0), Making(lag_um=20.0, passes_um=(0.0,))])
-def test_where_the_controller_adds_the_offset_no_lag_is_corrected(tmp_path: Path, making: Making) -> None:
-    wanted = TO_3B if making.passes_um else Wanted("4b", keeps=True)
-    done = made_program(plate_file(tmp_path), making, wanted, plain_scenario())
+@pytest.mark.parametrize(
+    ("passes_um", "wanted", "why"), [((), Wanted("4b", keeps=True), "kept-lag"), ((0.0,), TO_3B, "no-lag-offset")]
+)
+def test_where_the_controller_adds_the_offset_no_lag_is_corrected(
+    tmp_path: Path, passes_um: tuple[float, ...], wanted: Wanted, why: str
+) -> None:
+    done = made_program(plate_file(tmp_path), Making(lag_um=20.0, passes_um=passes_um), wanted, plain_scenario())
     assert isinstance(done, NotMade)
-    assert done.refusal.why == "kept-lag"
+    assert done.refusal.why == why
 
 
 def test_the_edge_at_the_faces_of_the_work_is_told_where_the_guides_are_known(tmp_path: Path) -> None:

@@ -171,6 +171,16 @@ def test_holes_are_cut_without_a_core_where_that_is_ticked(tmp_path: Path) -> No
     assert "leave “holes up to 10 mm without a core” out, or give “offset of each pass mm”" in refused["told"][0]["en"]
 
 
+def test_the_lag_of_the_wire_is_corrected_where_the_page_says_one(drawing: Path, tmp_path: Path) -> None:
+    found = made(drawing, tmp_path / "made.json", led_um="20")
+    assert (found["verdict"], found["told"][0]["en"]) == ("pass", "proved")
+    assert "B19B19B19G" in found["program"]["text"]
+    kept = made(drawing, tmp_path / "made.json", led_um="20", offset_mm="0")
+    assert "leave “corrected wire lag µm” out" in kept["told"][0]["en"]
+    with pytest.raises(SettingsError, match="lag of the wire"):
+        made(drawing, tmp_path / "made.json", led_um="-1")
+
+
 def test_a_program_that_is_not_proved_says_so_at_its_head(drawing: Path, tmp_path: Path) -> None:
     found = made(drawing, tmp_path / "made.json", offset_mm="0.2 0.1")  # the first pass sets the part free
     assert (found["verdict"], found["told"][0]["en"]) == ("fail", "not proved: the program fails its own proof")
@@ -191,7 +201,7 @@ def test_what_cannot_be_made_says_why(served: OpenedPage, dxf: bytes, drawing: P
 
 @pytest.mark.deeper
 def test_a_run_is_held_against_it(served: OpenedPage, dxf: bytes) -> None:
-    told = dict.fromkeys(("machine", "thickness_mm", "wire_mm", "gap_mm", "offset_mm", "side"), "")
+    told = dict.fromkeys(("machine", "thickness_mm", "wire_mm", "gap_mm", "lag_um", "offset_mm", "side"), "")
     wrong = PUNCH.replace("10200", "10300")
     asked = {**told, "name": "part.3b", "text": wrong, "number": "", "drawing": came(served, dxf)}
     assert served.ask("run", json.dumps(asked)).status == 200

@@ -254,8 +254,7 @@ def test_what_cannot_be_opened_is_said(tmp_path: Path, served: OpenedPage) -> No
 
 def asked_run(served: OpenedPage, **values: str) -> dict:
     told = {"name": "part.3b", "text": "B1000B0B1000GXL1\nDD\n"}
-    values_left_out = ("machine", "thickness_mm", "wire_mm", "gap_mm", "offset_mm", "side", "drawing", "number")
-    told |= dict.fromkeys(values_left_out, "")
+    told |= dict.fromkeys((*KEYS, "drawing", "number"), "")
     answer = served.ask("run", json.dumps({**told, **values}))
     assert answer.status == 200
     return json.loads(answer.body)
