@@ -108,7 +108,8 @@ HINTS: Mapping[str, str] = MappingProxyType(
         "kind-dwg": "hint-save-dxf",
         "kind-step": "hint-save-dxf",
         "kind-iges": "hint-save-dxf",
-        "kind-hpgl": "hint-post",
+        "kind-hpgl": "hint-make-program",
+        "kind-curve-list": "hint-make-program",
         "kind-archive": "hint-unpack",
         "kind-office": "hint-plain-text",
         "kind-html": "hint-plain-text",
@@ -142,6 +143,11 @@ _MAGIC: tuple[tuple[str, bytes], ...] = (
     ("kind-step", rb"\s*+ISO-10303-21;"),
     ("kind-iges", rb"[^\r\n]{72}S[ 0]*+1[ \t]*+[\r\n]"),  # column 73 names the section
     ("kind-card-log", rb"drycut card log"),
+    (
+        "kind-curve-list",
+        rb"(?:\xef\xbb\xbf)?(?:[ \t]*+(?:#[^\r\n]*+|kind\b[^\r\n]*+)?[\r\n]++)*+"
+        rb"[ \t]*+(?i:line|arc|circle)[ \t]*+[,;\t]",
+    ),
 )
 """Kinds by their first bytes, the more certain ones first. Possessive quantifiers keep hostile bytes linear."""
 
@@ -150,8 +156,10 @@ _NUMBERS_OF_BLOCKS = re.compile(rb"(?i)B[ \t]*+\d*+[ \t]*+B")
 _REMARK = re.compile(rb"\([^()\r\n]*+\)|;[^\r\n]*+")
 _ISO_LINE = re.compile(rb"(?i)\s*+(?:%.*|/?\s*+(?:[A-Z][ \t]*+[-+]?(?:\d++\.?+\d*+|\.\d++)\s*+)++)")
 _ISO_WORD = re.compile(rb"(?i)(?<![A-Z])G[ \t]*+(?:0?[0-3]|4[0-2]|5\d|9[0-2])(?!\d)")
-_HPGL = re.compile(rb"(?i)(?:\x1b[^\s;]{1,9})?(?:[A-Z]{2}[-+\d., \t]*+;\s*+){3,}+")
-_PEN = re.compile(rb"(?i)P[UDA][-+\d., \t]*+;")
+_HPGL = re.compile(
+    rb"(?i)(?:\x1b[^\s;]{1,9})?(?:[A-Z]{2}[-+\d., \t]*+;\s*+){2,}+(?:PE[<=>:7]*+[?-\xff]{2}|[A-Z]{2}[-+\d])?+"
+)
+_PEN = re.compile(rb"(?i)P(?:[UDA][-+\d., \t]*+;|[DA][-+\d]|E[<=>:7?-\xff])")
 
 
 def kind_of(data: bytes) -> str:

@@ -1,4 +1,4 @@
-"""A DXF file to a drawing: `read_drawing`, the one way in.
+"""The file of a drawing to what it holds: `read_drawing`, the one way in.
 
 Points and circles of a drawing, which may be thread points.
 
@@ -43,6 +43,9 @@ from parser.drawing.model import (
     Unit,
 )
 from parser.drawing.plane import FARTHEST_UM
+from parser.drawing.plots.source import Source
+from parser.drawing.plots.sources import source_of
+from parser.files import read_bytes
 from parser.findings.catalogue import LANGUAGES, Bilingual, Remark, remark_text
 from parser.findings.errors import DrawingError, Message
 from parser.geometry.curves import Curves, Floats, extents
@@ -254,7 +257,7 @@ def read_drawing(  # noqa: PLR0913, PLR0917 - all that can be asked of a drawing
     fit_um: float | None = None,
     unit: str | None = None,
 ) -> Drawing:
-    """The drawing of a DXF file, ASCII or binary, of any release.
+    """The drawing of a DXF file, ASCII or binary, of any release; of a plot in HPGL, or a list of curves in CSV.
 
     Parameters
     ----------
@@ -272,23 +275,34 @@ def read_drawing(  # noqa: PLR0913, PLR0917 - all that can be asked of a drawing
     unit
         The unit that it is drawn in, by its word in `UNITS`; None for the one that the file names.
 
-    Raises FileUnreadableError where there is no readable file; DrawingError where it is no DXF, is damaged beyond
+    Raises FileUnreadableError where there is no readable file; DrawingError where it is no drawing, is damaged beyond
     mending, has no such layer, or holds no curve.
     """
     path = Path(path)
     own = next((each for each in UNITS.values() if each.word == unit), None)
-    document, notes = read_document(path)
+    data = read_bytes(path)
+    try:
+        source = source_of(data)
+    except DrawingError as error:
+        raise DrawingError("in-file", file=path, message=error.message) from None
+    source = source or _of_dxf(path, data)
     try:
         with np.errstate(all="ignore"):  # damaged numbers overflow; what comes of them is left out by its value
-            return _drawing(path.name, document, _ReadWith(layer, gap_um, flatten_um, fit_um, own), notes)
+            return _drawing(path.name, source, _ReadWith(layer, gap_um, flatten_um, fit_um, own))
     except DrawingError as error:
         raise DrawingError("in-file", file=path, message=error.message) from None
     except Exception as error:  # what no part of the reader foresaw in a damaged file
         raise DrawingError("drawing-damaged", path=path, name=type(error).__name__) from None
 
 
-def _drawing(name: str, document: Document, read_with: _ReadWith, notes: list[Remark]) -> Drawing:
-    named, assumed = unit_of(document.header.get("$INSUNITS", None))
+def _of_dxf(path: Path, data: bytes) -> Source:
+    document, notes = read_document(path, data)
+    return Source(document, str(document.acad_release), None, tuple(notes))
+
+
+def _drawing(name: str, source: Source, read_with: _ReadWith) -> Drawing:
+    document, notes = source.document, source.notes
+    named, assumed = (source.unit, None) if source.unit else unit_of(document.header.get("$INSUNITS", None))
     unit = read_with.unit or named
     placed = list(placed_entities(document, scaled(unit.um)))
     _refuse_unknown(document, placed, read_with.layer)
@@ -297,7 +311,8 @@ def _drawing(name: str, document: Document, read_with: _ReadWith, notes: list[Re
     left = tuple(left_out(wanted, gathered.counts.missed))
     if not len(gathered.curves):
         raise no_contour(left, read_with.layer)
-    doubt = unit_doubt(unit, gathered.curves, document.header.get("$MEASUREMENT", None))
+    metric = None if source.unit else document.header.get("$MEASUREMENT", None)
+    doubt = unit_doubt(unit, gathered.curves, metric)
     of_unit = [] if read_with.unit else [each for each in (assumed, doubt) if each]
     once = drawn_once(gathered.curves, gathered.entity)
     chained = chain(once.curves, np.unique(once.entity, return_inverse=True)[1], read_with.gap_um)
@@ -306,7 +321,7 @@ def _drawing(name: str, document: Document, read_with: _ReadWith, notes: list[Re
     number, entity = np.unique(contours.entity, return_inverse=True)
     drawing = Drawing(
         name=name,
-        version=str(document.acad_release),
+        version=source.version,
         unit=unit.name,
         curves=welded(contours.curves, contours.loops),
         entity=entity.astype(np.int64),

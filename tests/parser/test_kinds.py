@@ -61,11 +61,17 @@ KINDS: dict[str, dict[str, bytes]] = {
     "kind-executable": {"windows": b"MZ\x90\0\3\0\0\0", "linux": b"\x7fELF\2\1\1\0"},
     "kind-step": {"model": b"ISO-10303-21;\nHEADER;\nENDSEC;\n"},
     "kind-iges": {"model": b"made by CAD".ljust(72) + b"S      1\n" + b"1H,,1H;".ljust(72) + b"G      1\n"},
-    "kind-hpgl": {"plot": b"IN;SP1;\nPU0,0;PD100,0;PD100,100;PU;SP0;\n", "with a lead": b"\x1b%-1BIN;SP1;PU0,0;PD9,9;"},
+    "kind-curve-list": {"list": b"# plate\nkind,x1,y1,x2,y2\nline,0,0,9,9\n", "bare": b"CIRCLE;0;0;5\n"},
+    "kind-hpgl": {
+        "plot": b"IN;SP1;\nPU0,0;PD100,0;PD100,100;PU;SP0;\n",
+        "with a lead": b"\x1b%-1BIN;SP1;PU0,0;PD9,9;",
+        "coded": b"IN;SP1;PE<=\xbf\xbf\xc1\xc1;",
+    },
     "kind-utf16": {"little": SQUARE.encode("utf-16-le"), "big": SQUARE.encode("utf-16-be")},
     "kind-toml": {"machine": (ROOT / "sim/setup/machine/dk7740.toml").read_bytes(), "few": b'a = 1\nb = "x"\n'},
     "kind-card-log": {"log": b"drycut card log 1\nsettings {}\n"},
 }
+DRAWN = {"kind-dxf", "kind-dwg", "kind-hpgl", "kind-curve-list"}
 CASES = [(kind, name) for kind, several in KINDS.items() for name in several]
 
 
@@ -83,12 +89,12 @@ def test_what_is_no_program_is_said_in_both_languages_with_what_to_do(kind: str,
         assert "`" not in said.found + said.hint, "no such term"
 
 
-@pytest.mark.parametrize(("kind", "name"), [case for case in CASES if case[0] not in {"kind-dxf", "kind-dwg"}])
+@pytest.mark.parametrize(("kind", "name"), [case for case in CASES if case[0] not in DRAWN])
 def test_where_a_drawing_is_expected_it_is_said_what_came_instead(tmp_path: Path, kind: str, name: str) -> None:
     (tmp_path / "part.dxf").write_bytes(KINDS[kind][name])
     with pytest.raises(DrawingError) as caught:
         read_drawing(tmp_path / "part.dxf")
-    assert f"is no DXF file ({term(kind)}); expected a drawing saved as DXF" in str(caught.value)
+    assert f"is no DXF file ({term(kind)}); expected a drawing saved as DXF, a plot" in str(caught.value)
 
 
 def test_a_program_is_no_drawing(tmp_path: Path) -> None:

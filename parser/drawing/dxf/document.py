@@ -27,7 +27,7 @@ from ezdxf.filemanagement import dxf_stream_info
 from ezdxf.lldxf.encoding import decode_dxf_unicode
 from ezdxf.lldxf.tagger import binary_tags_loader
 
-from parser.files import kind_of, read_bytes
+from parser.files import kind_of
 from parser.findings.catalogue import LANGUAGES, Bilingual, Remark, term
 from parser.findings.errors import DrawingError
 from parser.text.encoding import printable
@@ -107,12 +107,11 @@ _LONGEST = 120  # characters of a foreign message
 logging.getLogger("ezdxf").addHandler(logging.NullHandler())  # what it finds stands in the notes, not on stderr
 
 
-def read_document(path: Path) -> tuple[Document, list[Remark]]:
-    """The document of a file, and notes on what was mended.
+def read_document(path: Path, data: bytes) -> tuple[Document, list[Remark]]:
+    """The document of the bytes of a file, and notes on what was mended.
 
-    Raises FileUnreadableError where there is no readable file, DrawingError where it is no DXF or beyond mending.
+    Raises DrawingError where it is no DXF or beyond mending.
     """
-    data = read_bytes(path)
     document, notes = _loaded(path, data)
     if _UNITS.encode() not in data:
         document.header[_UNITS] = 0  # ezdxf takes a file that names no unit for one in metres

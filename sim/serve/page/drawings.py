@@ -9,6 +9,7 @@ import re
 from pathlib import Path
 from typing import Any, Final
 
+from parser.files import kind_of
 from parser.text.encoding import printable
 from sim.serve.page.child import Child, begun
 from sim.setup.settable import FIELDS
@@ -38,7 +39,8 @@ _BEGINS: Final = re.compile(_MARK + rb"(?:AutoCAD Binary DXF|\s*(?:999[^\n]*\n[^
 
 def is_drawing(name: str, data: bytes) -> bool:
     """Whether a file is meant as a drawing: its name says so, or its first lines."""
-    return name.lower().endswith(".dxf") or _BEGINS.match(data[:4096].replace(b"\r", b"\n")) is not None
+    is_dxf = name.lower().endswith(".dxf") or _BEGINS.match(data[:4096].replace(b"\r", b"\n")) is not None
+    return is_dxf or kind_of(data) in {"kind-hpgl", "kind-curve-list"}
 
 
 class Drawings:

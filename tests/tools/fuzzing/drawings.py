@@ -9,6 +9,7 @@ import numpy as np
 from places import SCENARIOS
 
 from fuzzing.dxf_text import fuzzed_dxf
+from fuzzing.plot_text import fuzzed_plot
 from fuzzing.promises import of_document, unclean
 from fuzzing.target import Input, Judged
 from parser.drawing.model import Drawing
@@ -25,8 +26,8 @@ _FLATTEN_UM = (1.0, 0.01, 1000.0)
 
 
 def make(rng: random.Random) -> Input:
-    """A drawing."""
-    return fuzzed_dxf(rng)
+    """A drawing; one in five is a plot or a list of curves."""
+    return fuzzed_plot(rng) if rng.random() < 0.2 else fuzzed_dxf(rng)
 
 
 def judge(data: Input, number: int, folder: Path) -> Judged:

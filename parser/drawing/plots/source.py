@@ -1,0 +1,87 @@
+"""What a file that is no DXF becomes: a document as a DXF file gives one, with its unit, so that all else reads it."""
+
+import math
+from typing import Any, Final, NamedTuple
+
+from ezdxf.document import Drawing as Document
+from ezdxf.filemanagement import new
+
+from parser.drawing.model import Unit
+from parser.findings.catalogue import Remark
+from parser.findings.errors import DrawingError
+
+MOST_WAYS: Final = 20_000
+"""Lines, circles and ways of a pen: a second is spent on them, and no part has more."""
+
+
+class Source(NamedTuple):
+    """A document, and how it is read.
+
+    Attributes
+    ----------
+    document
+        Curves by their layers, in numbers of the file.
+    version
+        What the file is: the release of a DXF file, else the name of its language.
+    unit
+        The unit of its numbers; None where the document names it.
+    notes
+        What was assumed and mended.
+    """
+
+    document: Document
+    version: str
+    unit: Unit | None = None
+    notes: tuple[Remark, ...] = ()
+
+
+class Sheet:
+    """A document that is being drawn, in numbers of the file."""
+
+    def __init__(self) -> None:
+        self.document = new()
+        self._space = self.document.modelspace()
+        self._number = 0
+
+    def line(self, start: complex, end: complex, **how: Any) -> None:
+        """A line; places x + iy."""
+        self._one_more()
+        self._space.add_line((start.real, start.imag), (end.real, end.imag), dxfattribs=how)
+
+    def circle(self, center: complex, radius: float, **how: Any) -> None:
+        """A circle."""
+        self._one_more()
+        self._space.add_circle((center.real, center.imag), abs(radius), dxfattribs=how)
+
+    def way(self, places: list[complex], bulges: list[float], **how: Any) -> None:
+        """Lines and arcs from place to place: the bulge of each is tan(sweep / 4), counter-clockwise above 0.
+
+        A way that ends where it begins is closed.
+        """
+        self._one_more()
+        is_closed = len(places) > 2 and places[0] == places[-1]
+        rows = [(p.real, p.imag, b) for p, b in zip(places, [*bulges, 0.0], strict=True)]
+        space, corners = self._space, rows[:-1] if is_closed else rows
+        space.add_lwpolyline(corners, format="xyb", close=is_closed, dxfattribs=how)
+
+    def bezier(self, places: list[complex], **how: Any) -> None:
+        """A Bézier curve of the third order, by four places."""
+        self._one_more()
+        spline = self._space.add_spline(dxfattribs={**how, "degree": 3})
+        spline.control_points = [(place.real, place.imag, 0.0) for place in places]
+        spline.knots = [0.0] * 4 + [1.0] * 4
+
+    def text(self, place: complex, **how: Any) -> None:
+        """A text, of which nothing but its place matters here."""
+        self._one_more()
+        self._space.add_text("", dxfattribs={**how, "insert": (place.real, place.imag)})
+
+    def _one_more(self) -> None:
+        self._number += 1
+        if self._number > MOST_WAYS:
+            raise DrawingError("plot-too-long", most=MOST_WAYS)
+
+
+def bulge(sweep_rad: float) -> float:
+    """The bulge of an arc that sweeps up to a turn; beyond half a turn it is cut in two by whoever draws it."""
+    return math.tan(0.25 * sweep_rad)
