@@ -78,6 +78,7 @@ EXTRA_OF: Final[Mapping[str, str]] = {
     **dict.fromkeys(("PIL", "jinja2", "llvmlite", "markupsafe", "numba", "platformdirs"), "run"),
     **dict.fromkeys(("pygame", "pymunk", "shapely"), "run"),
     "ezdxf": "drawing",
+    "svgelements": "drawing",
     **dict.fromkeys(("starlette", "uvicorn"), "open"),
     **dict.fromkeys(("lsprotocol", "pygls"), "lsp"),
     "imageio_ffmpeg": "film",

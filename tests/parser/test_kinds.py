@@ -52,8 +52,8 @@ KINDS: dict[str, dict[str, bytes]] = {
         "png": b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR",
         "jpeg": b"\xff\xd8\xff\xe0\0\x10JFIF\0",
         "bmp": b"BM\x36\0\x0c\0\0\0\0\0\x36\0",
-        "svg": b'<?xml version="1.0"?>\n<!-- made by CAD -->\n<svg xmlns="http://www.w3.org/2000/svg"></svg>',
     },
+    "kind-svg": {"file": b'<?xml version="1.0"?>\n<!-- by a CAD -->\n<svg xmlns="http://www.w3.org/2000/svg"></svg>'},
     "kind-html": {
         "page": b"\n<!DOCTYPE html>\n<html><body>3B</body></html>",
         "bare": b"<HTML><BODY>login</BODY></HTML>",
@@ -71,7 +71,7 @@ KINDS: dict[str, dict[str, bytes]] = {
     "kind-toml": {"machine": (ROOT / "sim/setup/machine/dk7740.toml").read_bytes(), "few": b'a = 1\nb = "x"\n'},
     "kind-card-log": {"log": b"drycut card log 1\nsettings {}\n"},
 }
-DRAWN = {"kind-dxf", "kind-dwg", "kind-hpgl", "kind-curve-list"}
+DRAWN = {"kind-dxf", "kind-dwg", "kind-hpgl", "kind-svg", "kind-curve-list"}
 CASES = [(kind, name) for kind, several in KINDS.items() for name in several]
 
 

@@ -116,7 +116,7 @@ class _Plotter:
         """End the way that the pen draws."""
         if len(self._way) > 1:
             if self._is_polygon:
-                self._edges.append((self._way, self._bulges))
+                self._edges.append(_ring(self._way, self._bulges))
             else:
                 self.sheet.way(self._way, self._bulges, **self._how())
         self._way, self._bulges = [], []
@@ -238,6 +238,7 @@ class _Plotter:
         if not numbers:
             self._to_plot = _AS_IT_IS
             return
+        self.has_parts = True  # whole user units are no whole plot units
         low_x, high_x, low_y, high_y = numbers[:4]
         kind = int(numbers[4]) if len(numbers) > 4 else 0
         if kind == 2:
@@ -286,3 +287,8 @@ class _Plotter:
             self._is_down = not step.is_up
             self._go(self._place(complex(step.x, step.y), by=not step.is_place))
         self._is_down = True
+
+
+def _ring(places: list[complex], bulges: list[float]) -> tuple[list[complex], list[float]]:
+    """A way of a polygon, which ends where it begins."""
+    return (places, bulges) if places[0] == places[-1] else ([*places, places[0]], [*bulges, 0.0])

@@ -71,6 +71,12 @@ class Sheet:
         spline.control_points = [(place.real, place.imag, 0.0) for place in places]
         spline.knots = [0.0] * 4 + [1.0] * 4
 
+    def ellipse(self, center: complex, major: complex, ratio: float, params: tuple[float, float], **how: Any) -> None:
+        """An arc of an ellipse about a centre, by its longer half axis, counter-clockwise between two parameters."""
+        self._one_more()
+        first, last = params
+        self._space.add_ellipse((center.real, center.imag), (major.real, major.imag), ratio, first, last, how)
+
     def text(self, place: complex, **how: Any) -> None:
         """A text, of which nothing but its place matters here."""
         self._one_more()

@@ -154,6 +154,11 @@ def test_a_rectangle_is_drawn_from_the_pen_to_its_far_corner(tmp_path: Path, fra
     assert (low.tolist(), high.tolist()) == ([2500.0, 2500.0], [7500.0, 5000.0])
 
 
+def test_the_edge_of_a_polygon_closes(tmp_path: Path) -> None:
+    drawing = read(tmp_path, "IN;SP1;PU0,0;PM0;PD400,0,400,400,0,400;PM2;EP;PU;")
+    assert [(loop.closed, len(loop.row)) for loop in drawing.loops] == [(True, 4)]
+
+
 def test_user_units_are_scaled_between_the_corners(tmp_path: Path) -> None:
     plain = read(tmp_path, "IN;SP1;PU0,0;PD400,0,400,400,0,400,0,0;PU;")
     scaled = read(tmp_path, "IN;IP0,0,4000,4000;SC0,100,0,100;SP1;PU0,0;PD10,0,10,10,0,10,0,0;PU;")

@@ -115,6 +115,7 @@ def test_a_file_is_a_drawing_by_its_name_or_its_first_lines() -> None:
         assert is_drawing("part", data)
     assert is_drawing("PART.DXF", b"")
     assert is_drawing("part.plt", b"IN;SP1;PU0,0;PD100,0,100,100;")
+    assert is_drawing("part.svg", b"<svg xmlns='http://www.w3.org/2000/svg'></svg>")
     assert is_drawing("part", b"# list\nline,0,0,1,1\n")
     for data in (b"", b"B0B0B0GXL1", b"0\nB1B1B1GXL1", b"// SECTION"):
         assert not is_drawing("part.3b", data)
