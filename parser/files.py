@@ -158,9 +158,10 @@ _REMARK = re.compile(rb"\([^()\r\n]*+\)|;[^\r\n]*+")
 _ISO_LINE = re.compile(rb"(?i)\s*+(?:%.*|/?\s*+(?:[A-Z][ \t]*+[-+]?(?:\d++\.?+\d*+|\.\d++)\s*+)++)")
 _ISO_WORD = re.compile(rb"(?i)(?<![A-Z])G[ \t]*+(?:0?[0-3]|4[0-2]|5\d|9[0-2])(?!\d)")
 _HPGL = re.compile(
-    rb"(?i)(?:\x1b[^\s;]{1,9})?(?:[A-Z]{2}[-+\d., \t]*+;\s*+){2,}+(?:PE[<=>:7]*+[?-\xff]{2}|[A-Z]{2}[-+\d])?+"
+    rb"(?i)\s*+(?:\x1b(?:%-?\d{0,5}[A-Z]|E|\.[@-Z(][\d;]{0,12}:?))*+(?:(?:BP|CO|DF|EC|IN|IP|LA|LT|NP|PA|PC|PD|PE|PM|PR|PS|PU|PW|QL|RO|SC|SP|TR|VS|WU)"
+    rb"[-+\d., \t]*+;?\s*+){3}"
 )
-_PEN = re.compile(rb"(?i)P(?:[UDA][-+\d., \t]*+;|[DA][-+\d]|E[<=>:7?-\xff])")
+_PEN = re.compile(rb"(?i)P(?:[UDA][-+\d;]|E[<=>:7?-\xff])")
 
 
 def kind_of(data: bytes) -> str:
@@ -194,8 +195,7 @@ def _is_iso(head: bytes) -> bool:
 
 def _is_hpgl(head: bytes) -> bool:
     """Whether it begins with instructions of two letters, and some of them move a pen."""
-    start = _HPGL.match(head.strip())
-    return bool(start and _PEN.search(start[0]))
+    return bool(_HPGL.match(head) and _PEN.search(head))
 
 
 def _is_toml(head: bytes) -> bool:
