@@ -479,6 +479,31 @@ def test_what_is_clicked_in_the_picture_is_cut_alone(browsers: Browsers, empty: 
         assert page.input_value("#picks") == ""
 
 
+def test_a_click_sets_a_thread_point_where_it_is_to(browsers: Browsers, empty: OpenedPage, tmp_path: Path) -> None:
+    def plate(space: Modelspace) -> None:
+        space.add_lwpolyline([(0, 0), (20, 0), (20, 10), (0, 10)], close=True)
+        space.add_lwpolyline([(4, 2), (16, 2), (16, 8), (4, 8)], close=True)
+
+    with tab(browsers, empty.address) as shown:
+        page = shown.page
+        page.set_input_files("#pick", drawn(tmp_path, plate))
+        page.wait_for_selector("#drawing:not([hidden])")
+        page.wait_for_selector("#drawing-told:empty", state="attached")
+        at = places_of(shown)
+        page.check("#click-starts")
+        page.mouse.click(*at(7, 5))
+        x, y = map(float, page.input_value("#starts").split(","))
+        assert (x, y) == pytest.approx((7.0, 5.0), abs=0.2)
+        assert page.input_value("#picks") == ""
+        page.mouse.click(*at(7, 5))  # a second click on a mark takes it back
+        assert page.input_value("#starts") == ""
+        page.fill("#starts", "7,5; 10,-3")
+        page.click("#make")
+        shown.waits_for("pass")
+        assert "Start Point = 7.00000 , 5.00000" in shown.text()
+        assert "--start" not in page.inner_text("#drawing-told")
+
+
 def test_beneath_a_program_a_click_picks_the_place_of_the_drawing(browsers: Browsers, tmp_path: Path) -> None:
     """The plate lies at (30, 40) mm in the drawing, and at (−10, −11) in the program."""
 

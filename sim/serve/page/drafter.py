@@ -14,7 +14,8 @@ from parser.drawing.read import read_drawing
 from parser.findings.catalogue import LANGUAGES, Bilingual, Language, remark_text
 from parser.findings.errors import DrycutError, Message, SettingsError
 from parser.program import load_program, moving
-from parser.toolpath import Toolpath
+from parser.text.encoding import narrow
+from parser.toolpath import Point, Toolpath
 from parser.units import from_mm, mm
 from sim.make.cam.maker import MadeProgram, made_program, remarked, wanted_of
 from sim.measure.compare.compare import compare_program
@@ -31,7 +32,7 @@ from sim.setup.making import OR_NONE_MM, OVERCUT_MM, Making, ToMake, refuse_odd
 from sim.setup.part import DRAWING_UNITS, GAP_UM, DrawingTarget
 from sim.setup.picks import pick_of
 from sim.setup.scenario import Scenario
-from sim.setup.toml.reader import Bound
+from sim.setup.toml.reader import PLACE_MM, Bound
 from sim.setup.wire import WIRE_LAG_UM
 from sim.show.refusals import why_refused
 from sim.show.replay.tape import drawing_columns
@@ -105,6 +106,7 @@ def _making(request: PageRequest) -> Making:
         unit=_target(request).unit,
         gap_um=_target(request).gap_um,
         picks=tuple(pick_of(each.strip(), "the program") for each in request["picks"].split(";") if each.strip()),
+        starts_um=tuple(_place_um(each) for each in request["starts"].split(";") if each.strip()),
         passes_um=passes,
         tab_um=from_mm(number_of(tab, OVERCUT_MM, Message("name-tab"))) if tab else 0.0,
         lag_um=number_of(lag, WIRE_LAG_UM, Message("name-lag")) if lag else 0.0,
@@ -112,6 +114,14 @@ def _making(request: PageRequest) -> Making:
     )
     refuse_odd(making, "the program")
     return making
+
+
+def _place_um(text: str) -> Point:
+    """A thread point as the page says it, mm. SettingsError where it is no place."""
+    numbers = [number_of(each, PLACE_MM, Message("name-start")) for each in narrow(text).split(",")]
+    if len(numbers) != 2:
+        raise SettingsError("no-thread-point", found=text.strip()[:40])
+    return Point(*map(from_mm, numbers))
 
 
 def _summary(done: MadeProgram, language: Language) -> list[str]:
@@ -131,8 +141,10 @@ _CONTROLS: Final = {
     "--lag": "open.lag",
     "--no-core": "open.no-core",
     "--pass": "open.passes",
+    r"--start X,Y (?:or|或) --thread-layer": "open.starts",
+    r"--start(?: X,Y)?": "open.starts",
 }
-"""Options of the command line that the page has a control for, and its label."""
+"""Options of the command line that the page has a control for, as they are named in texts, and its label."""
 
 
 def _by_controls(said: Bilingual) -> Bilingual:

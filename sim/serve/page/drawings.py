@@ -27,7 +27,18 @@ READ_KEYS: Final = ("join_mm", "unit")
 """How the page has a drawing read."""
 LOOK_KEYS: Final = ("name", "text", "machine", *FIELDS, "offset_mm", "side", *READ_KEYS)
 """What the page says where a drawing is to be laid beneath its program."""
-MAKE_KEYS: Final = ("language", "machine", *FIELDS, "offset_mm", "tab_mm", "led_um", "no_core", "picks", *READ_KEYS)
+MAKE_KEYS: Final = (
+    "language",
+    "machine",
+    *FIELDS,
+    "offset_mm",
+    "tab_mm",
+    "led_um",
+    "no_core",
+    "picks",
+    "starts",
+    *READ_KEYS,
+)
 """What it says where a program is to be made; empty texts leave what is usual."""
 _MOST: Final = 20
 """Drawings that are kept, the last ones."""

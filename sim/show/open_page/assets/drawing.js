@@ -2,7 +2,7 @@
 import * as asked from "./asked.js";
 import { element, make } from "../../html/assets/elements.js";
 import * as language from "../../html/assets/language.js";
-import { IN_PLACE, laid, lifted, placeOf } from "./picks.js";
+import { IN_PLACE, lifted, placesIn, toggled } from "./picks.js";
 
 /** @import { Said } from "../../html/assets/language.js" */
 /** @import { Curves } from "../../replay/assets/document.js" */
@@ -16,7 +16,8 @@ import { IN_PLACE, laid, lifted, placeOf } from "./picks.js";
  * @property {(coming: Promise<RunState>) => void} follow shows how far a job is
  * @property {(read: FileText) => void} begin opens a program
  * @property {(curves: Curves | null) => void} beneath draws it under the path
- * @property {(places: [x: number, y: number][]) => void} picked marks what is picked
+ * @property {(picks: [x: number, y: number][], starts: [x: number, y: number][]) => void} picked marks what is picked, and
+ *   thread points
  * @property {(key: string) => void} tell says what went wrong
  */
 
@@ -34,6 +35,8 @@ export function wireDrawing(around) {
   const lag = element("#lag", HTMLInputElement);
   const noCore = element("#no-core", HTMLInputElement);
   const picks = element("#picks", HTMLInputElement);
+  const starts = element("#starts", HTMLInputElement);
+  const setsStarts = element("#click-starts", HTMLInputElement);
   const join = element("#join", HTMLInputElement);
   const unit = element("#unit", HTMLSelectElement);
   let placement = IN_PLACE;
@@ -55,22 +58,10 @@ export function wireDrawing(around) {
   function show() {
     name.textContent = number ? file : language.say("no-drawing");
     buttons.hidden = element("#drawn", HTMLElement).hidden = element("#picks-hint", HTMLElement).hidden = !number;
-    around.picked(number ? placesOfPicks().map(([x, y]) => laid(placement, [1000 * x, 1000 * y])) : []);
+    const [picked, threaded] = [picks, starts].map((field) => (number ? placesIn(field.value, placement) : []));
+    around.picked(picked, threaded);
     if (!made.length) list.className = "";
     list.replaceChildren(...(made.length ? made : seen).map((said) => make("li", {}, language.pick(said))));
-  }
-
-  /** What is picked, one by one. */
-  function listOfPicks() {
-    return picks.value.split(";").map((each) => each.trim()).filter(Boolean);
-  }
-
-  /**
-   * Places of the drawing that are picked, mm.
-   * @returns {[x: number, y: number][]}
-   */
-  function placesOfPicks() {
-    return listOfPicks().map(placeOf).filter((place) => place !== null);
   }
 
   /** How it is read. */
@@ -80,7 +71,7 @@ export function wireDrawing(around) {
 
   /** Take the drawing away. */
   function away() {
-    number = picks.value = "";
+    number = picks.value = starts.value = "";
     made = seen = [];
     around.beneath(null);
     show();
@@ -115,29 +106,25 @@ export function wireDrawing(around) {
     // Its offsets are worked into the program; those of the form of the run a controller would add to them.
     making = number;
     led = lag.value.trim();
-    const own = { language: written.value, offset_mm: passes.value.trim(), tab_mm: tab.value.trim(), picks: picks.value };
+    const own = { language: written.value, offset_mm: passes.value.trim(), tab_mm: tab.value.trim(), picks: picks.value, starts: starts.value };
     const how = { led_um: lag.value.trim(), no_core: noCore.checked ? "yes" : "", ...reading() };
     around.follow(asked.draft({ ...around.values(), drawing: number, ...own, ...how }));
   });
   for (const field of [join, unit]) field.addEventListener("change", look);
-  picks.addEventListener("input", show);
+  for (const field of [picks, starts]) field.addEventListener("input", show);
   language.onChange(show);
 
   return {
     /**
-     * Pick what lies at a place of the picture, µm, or take the pick near it back; whether a drawing is to be picked of.
+     * Pick what lies at a place of the picture, µm, or set a thread point there, as a click is to; or take the one near it
+     * back. Whether there is a drawing to be clicked on.
      * @param {[x: number, y: number]} place
      * @param {number} nearUm
      */
     pick(place, nearUm) {
       if (!number || element("#panel-drawing", HTMLElement).hidden) return false;
-      const [x, y] = lifted(placement, place).map((um) => (um / 1000).toFixed(3));
-      const all = listOfPicks();
-      const others = all.filter((each) => {
-        const own = placeOf(each);
-        return !own || 1000 * Math.hypot(own[0] - Number(x), own[1] - Number(y)) >= nearUm;
-      });
-      picks.value = (others.length < all.length ? others : [...all, `${x},${y}`]).join("; ");
+      const field = setsStarts.checked ? starts : picks;
+      field.value = toggled(field.value, lifted(placement, place), nearUm);
       show();
       return true;
     },
@@ -151,7 +138,7 @@ export function wireDrawing(around) {
      */
     async take(newNumber, newFile) {
       [number, file, made, placement] = [newNumber, newFile, [], IN_PLACE];
-      picks.value = "";
+      picks.value = starts.value = "";
       element("#tab-drawing", HTMLElement).click();
       show();
       await look();

@@ -1,4 +1,4 @@
-// What is picked of a drawing: where its places lie beneath a program, and their marks.
+// What is picked of a drawing, and where the wire is threaded: places as they lie beneath a program, and their marks.
 
 /** @import { Placement } from "./data.js" */
 /** @import { View } from "../../replay/assets/view.js" */
@@ -12,7 +12,7 @@ export const IN_PLACE = { turn_rad: 0, shift_um: [0, 0], mirror: false };
  * @param {[x: number, y: number]} place
  * @returns {[x: number, y: number]}
  */
-export function laid({ turn_rad: turn, shift_um: [byX, byY], mirror }, [x, y]) {
+function laid({ turn_rad: turn, shift_um: [byX, byY], mirror }, [x, y]) {
   const [cos, sin, own] = [Math.cos(turn), Math.sin(turn), mirror ? -x : x];
   return [cos * own - sin * y + byX, sin * own + cos * y + byY];
 }
@@ -34,9 +34,66 @@ export function lifted({ turn_rad: turn, shift_um: [byX, byY], mirror }, [x, y])
  * @param {string} pick
  * @returns {[x: number, y: number] | null}
  */
-export function placeOf(pick) {
+function placeOf(pick) {
   const [, x, y] = /^(-?[\d.]+) *, *(-?[\d.]+)$/.exec(pick) ?? [];
   return x && y ? [Number(x), Number(y)] : null;
+}
+
+/**
+ * What stands in a field, one by one, with ; between.
+ * @param {string} text
+ */
+function listed(text) {
+  return text.split(";").map((each) => each.trim()).filter(Boolean);
+}
+
+/**
+ * The places that a field names, as they lie beneath the program, µm.
+ * @param {string} text
+ * @param {Placement} placement
+ * @returns {[x: number, y: number][]}
+ */
+export function placesIn(text, placement) {
+  const places = listed(text).map(placeOf).filter((place) => place !== null);
+  return places.map(([x, y]) => laid(placement, [1000 * x, 1000 * y]));
+}
+
+/**
+ * What stands in a field once a place of the drawing, µm, is named in it, or the one near it no longer.
+ * @param {string} text
+ * @param {[x: number, y: number]} place
+ * @param {number} nearUm
+ */
+export function toggled(text, place, nearUm) {
+  const [x, y] = place.map((um) => (um / 1000).toFixed(3));
+  const all = listed(text);
+  const others = all.filter((each) => {
+    const own = placeOf(each);
+    return !own || 1000 * Math.hypot(own[0] - Number(x), own[1] - Number(y)) >= nearUm;
+  });
+  return (others.length < all.length ? others : [...all, `${x},${y}`]).join("; ");
+}
+
+/**
+ * Draw the marks of thread points that are asked for: rings with a cross.
+ * @param {CanvasRenderingContext2D} pen
+ * @param {View} view
+ * @param {[x: number, y: number][]} places
+ * @param {string} shade
+ */
+export function drawStarts(pen, view, places, shade) {
+  pen.strokeStyle = shade;
+  pen.lineWidth = 2;
+  for (const [x, y] of places) {
+    const [across, down] = [view.toX(x), view.toY(y)];
+    pen.beginPath();
+    pen.arc(across, down, 7, 0, 2 * Math.PI);
+    for (const [byX, byY] of [[12, 0], [0, 12]]) {
+      pen.moveTo(across - byX, down - byY);
+      pen.lineTo(across + byX, down + byY);
+    }
+    pen.stroke();
+  }
 }
 
 /**

@@ -8,7 +8,7 @@ import { pathOf } from "../../replay/assets/path.js";
 import { penOf } from "../../replay/assets/pen.js";
 import { differing } from "./differing.js";
 import { wireMeasuring } from "./measuring.js";
-import { drawPicks } from "./picks.js";
+import { drawPicks, drawStarts } from "./picks.js";
 import { rowAt } from "./snap.js";
 import { drawAxes, drawBand, drawPlayed } from "./under_path.js";
 import { drawWire } from "../../replay/assets/wire.js";
@@ -53,6 +53,8 @@ export function pictureOf(canvas, on) {
   let findings = [];
   /** @type {[x: number, y: number][]} */
   let picks = [];
+  /** @type {[x: number, y: number][]} */
+  let starts = [];
   let line = 0;
   let isAsked = false;
   let isFitted = false;
@@ -158,6 +160,7 @@ export function pictureOf(canvas, on) {
     if (drawn) drawProgram(drawn, shades);
     if (shown?.moment.t) drawWire(pen, view, shown.moment, 0, shown.show.wireUm, colours);
     drawPicks(pen, view, picks, shades.accent);
+    drawStarts(pen, view, starts, shades.accent);
     measuring.draw(pen, shades.accent);
     drawScaleBar(pen, view, colours);
   }
@@ -322,11 +325,12 @@ export function pictureOf(canvas, on) {
       later();
     },
     /**
-     * Mark what is picked of the drawing.
-     * @param {[x: number, y: number][]} places
+     * Mark what is picked of the drawing, and where the wire is to be threaded.
+     * @param {[x: number, y: number][]} newPicks
+     * @param {[x: number, y: number][]} newStarts
      */
-    pick(places) {
-      picks = places;
+    pick(newPicks, newStarts) {
+      [picks, starts] = [newPicks, newStarts];
       later();
     },
     fit() {

@@ -174,6 +174,19 @@ def test_holes_are_cut_without_a_core_where_that_is_ticked(tmp_path: Path) -> No
     assert "leave “holes up to 10 mm without a core” out, or give “offset of each pass mm”" in refused["told"][0]["en"]
 
 
+def test_thread_points_of_the_page_are_taken_and_its_control_is_named(drawing: Path, tmp_path: Path) -> None:
+    chosen = made(drawing, tmp_path / "made.json")
+    (said,) = [text for text in chosen["told"] if text["en"].startswith("chosen")]
+    assert "“thread points at mm” names others" in said["en"]
+    assert "“穿丝点 mm” 指定" in said["zh"]
+    asked = made(drawing, tmp_path / "made.json", starts="28，45")  # a comma of a Chinese keyboard
+    assert "Start Point = 28.00000 , 45.00000" in asked["program"]["text"]
+    assert not [text for text in asked["told"] if text["en"].startswith("chosen")]
+    for wrong in ("28", "28,45,1", "here,45"):
+        with pytest.raises(SettingsError, match=r"thread point"):
+            made(drawing, tmp_path / "made.json", starts=wrong)
+
+
 def test_the_lag_of_the_wire_is_corrected_where_the_page_says_one(drawing: Path, tmp_path: Path) -> None:
     found = made(drawing, tmp_path / "made.json", led_um="20")
     assert (found["verdict"], found["told"][0]["en"]) == ("pass", "proved")
