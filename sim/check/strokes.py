@@ -230,6 +230,7 @@ def swapped_rows(toolpath: Toolpath, contour: Ints, of_pass: Ints) -> Ints:
     same = (of_pass[at] >= 0) & (of_pass[at + 1] == of_pass[at])
     same &= (contour[at - 1] == contour[at]) & (contour[at + 2] == contour[at])
     at = at[same]
+    at = at[np.minimum(toolpath.length_um[at], toolpath.length_um[at + 1]) > CLOSED_WITHIN_UM]  # else nothing is moved
     at = at[~runs_back_over(toolpath, at, at + 1)]  # a slit
     now = joints.tangent(at - 1, at) + joints.tangent(at, at + 1) + joints.tangent(at + 1, at + 2)
     then = joints.tangent(at - 1, at + 1) + joints.tangent(at + 1, at) + joints.tangent(at, at + 2)

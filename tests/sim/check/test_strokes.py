@@ -75,3 +75,14 @@ def test_of_all_single_block_damages_few_pass_in_silence_and_sound_programs_are_
     assert share["lost"] <= 0.2, share
     assert share["doubled"] <= 0.12, share
     assert share["swapped"] <= 0.5, share
+
+
+def test_a_block_of_a_few_um_is_swapped_with_none() -> None:
+    """A step of 1 µm has any direction; in another place it would move nothing by more."""
+    slot = (
+        "B6B1055B1055GYL1 B17B2920B1186GXNR1 B597B1366B386GYNR2 B526B446B444GYNR2 B1B0B1GXL1 B661B35B380GYNR3 "
+        "B967B753B352GXNR3 B1152B1938B653GXNR3 B748B3133B1662GXNR3 B644B2127B470GXNR4 B627B1104B355GYNR4 "
+        "B537B377B384GYNR4 B1B0B1GXL3 B692B42B444GYNR1 B1105B1043B546GXNR1 B1123B2735B1199GXNR1 B12B2922B81GXNR1 "
+        "B79B2919B100GXSR2 B6B1055B1055GYL3 DD"
+    )
+    assert "3B318" not in codes(slot)
