@@ -286,7 +286,7 @@ def _drafted(plan: CutPlan, wanted: Wanted) -> Draft:
 
 
 def _refuse_unknown_ways(plan: CutPlan, wanted: Wanted) -> None:
-    """CannotCutError where a lag is to be corrected and the controller adds the offsets, nobody knows how."""
+    """CannotCutError where the controller adds the offsets: how it leads a wire that lags, nobody knows."""
     if wanted.keeps:
         raise CannotCutError(Refusal("kept-lag"))
     if not all(pass_.by_um for cut in plan.cuts for pass_ in cut.passes):
