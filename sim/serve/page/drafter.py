@@ -141,7 +141,7 @@ _CONTROLS: Final = {
     "--lag": "open.lag",
     "--no-core": "open.no-core",
     "--pass": "open.passes",
-    r"--start X,Y (?:or|或) --thread-layer": "open.starts",
+    r"--start X,Y \S+ --thread-layer": "open.starts",
     r"--start(?: X,Y)?": "open.starts",
 }
 """Options of the command line that the page has a control for, as they are named in texts, and its label."""
