@@ -62,9 +62,31 @@ def guided(cut: FigureCut, lag_um: float) -> FigureCut:
 def _guided(way: PassCut, lag_um: float, *, is_past: bool) -> PassCut:
     """The ways of the guides of a pass, from where it begins to where it ends, or past that and back."""
     ahead, end = _ahead(way.along, lag_um, is_past=is_past), way.along.end_um[-1]
-    along = _chain(way.along.start_um[0], ahead, ahead.end_um[-1] if is_past else end)
-    out_end = way.out.end_um[-1] if len(way.out) else end
-    return way._replace(along=along, out=_chain(along.end_um[-1], way.out, out_end))
+    begin = ahead.start_um[0] if len(way.into) else way.along.start_um[0]
+    along = _chain(begin, ahead, ahead.end_um[-1] if is_past or len(way.out) else end)
+    into = _lead(way.into, way.into.start_um[0], begin) if len(way.into) else way.into
+    out = _lead(_back(way, lag_um), along.end_um[-1], way.out.end_um[-1]) if len(way.out) else way.out
+    return way._replace(into=into, along=along, out=out if len(out) else _chain(along.end_um[-1], out, end))
+
+
+def _back(way: PassCut, lag_um: float) -> Curves:
+    """The way out of a pass, its arcs that run back over those of the pass on the circles of the guides."""
+    out, along = way.out, way.along.picked(np.flatnonzero(way.along.is_arc))
+    apart = np.hypot(*np.moveaxis(out.center_um[:, None] - along.center_um[None], 2, 0))
+    is_same = (apart <= _SAME_UM) & (np.abs(out.radius_um[:, None] - along.radius_um[None]) <= _SAME_UM)
+    is_back = is_same.any(axis=1)
+    radius = np.where(is_back, np.hypot(out.radius_um, ARC_SHARE * lag_um), out.radius_um)
+    starts, ends = (_on(out, radius, out.start_angle_rad + turn) for turn in (0.0, out.sweep_rad))
+    starts, ends = np.where(is_back[:, None], starts, out.start_um), np.where(is_back[:, None], ends, out.end_um)
+    return curves_between(starts, ends, out.center_um, out.sweep_rad)
+
+
+def _lead(way: Curves, start: Floats, end: Floats) -> Curves:
+    """A lead from a place (2,) to another one: its lines turn a little, to where the arcs beside them are now."""
+    before, after = np.concatenate([start[None], way.end_um[:-1]]), np.concatenate([way.start_um[1:], end[None]])
+    starts = np.where(way.is_arc[:, None], way.start_um, before)
+    ends = np.where(way.is_arc[:, None], way.end_um, after)
+    return _chain(start, curves_between(starts, ends, way.center_um, way.sweep_rad), end)
 
 
 def _ahead(way: Curves, lag_um: float, *, is_past: bool) -> Curves:

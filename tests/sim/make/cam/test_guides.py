@@ -262,6 +262,20 @@ def test_a_program_for_a_wire_that_lags_is_proved_with_that_lag(tmp_path: Path, 
     assert lagging.proof.run.scenario.wire_lag_um == 20.0
 
 
+def test_small_circles_are_cut_with_a_lag_of_a_quarter_of_their_radius(tmp_path: Path) -> None:
+    """The guides go round them 6 µm farther out: the leads end there, and the overcut comes back there."""
+
+    def small(space: Modelspace) -> None:
+        space.add_lwpolyline([(0, 0), (4, 0), (4, 4), (0, 4)], close=True)
+        space.add_circle((1, 2), 0.3)
+        space.add_circle((8, 2), 0.1)
+
+    done = made_program(plate_file(tmp_path, small), Making(lag_um=50.0), TO_3B, plain_scenario())
+    assert isinstance(done, MadeProgram)
+    assert done.is_proved, done.proof
+    assert edge_um(done) <= 6.0
+
+
 def test_its_path_is_no_offset_of_the_drawing_and_without_a_lag_it_fails(tmp_path: Path) -> None:
     """What is held against the offset is the way of the wire; the path itself would leave the corners 19 µm off."""
     done = made(tmp_path, Making(lag_um=20.0))
