@@ -7,6 +7,7 @@ from typing import NamedTuple
 from controller.stepping.steps import words_of
 from parser.dialect.mender import Mend, Mender
 from parser.dialect.reader import at_block
+from parser.findings.errors import ProgramError
 from parser.findings.findings import (
     CountedElsewhere,
     Finding,
@@ -134,10 +135,16 @@ class _Trials:
         return sum(self.holds(finding) and isinstance(finding.fact, WrongAxis) for finding in self.findings)
 
     def is_silent(self, *changes: Change) -> bool:
-        """Whether nothing is left to find in the contour with some changes, and no more in the others."""
+        """Whether nothing is left to find in the contour with some changes, and no more in the others.
+
+        A change may make a word of what was the only block: such a text is no program, and proves nothing.
+        """
         toolpath = self.program.toolpath
         edits = [self.mender.edit(toolpath, change.block - 1, mend) for change in changes for mend in change.mends]
-        found = self._again(edited(self.program.text, edits))
+        try:
+            found = self._again(edited(self.program.text, edits))
+        except ProgramError:
+            return False
         return not any(self.holds(finding) for finding in found) and len(found) <= self._elsewhere
 
     def proved(self) -> list[Change]:

@@ -186,3 +186,11 @@ def test_a_word_that_may_explain_more_is_tried(monkeypatch: pytest.MonkeyPatch) 
         "B1000B0B1000GXL1;1.0,0.0\nB0B1000B10000GYL2;1.0,1.0\nB1000B0B1000GXL3;0.0,1.0\nB0B1000B1000GYL4;0.0,0.0\nDD\n"
     )
     assert checks_made(monkeypatch, text) == (2, {"3B217", "3B301"})
+
+
+def test_a_mend_that_leaves_no_block_proves_nothing() -> None:
+    """The only block of the text is behind words that a mend would join it with; check ended without a finding."""
+    text = "Offset F= 0.0B99000B9900GXL3; -0.000 , 0.0001\n\uff22B9900B0B39600GYNR1;9.9 ,0.\n"
+    result = check_file(Job("part.3b", text.encode(), CheckSettings()))
+    assert result.findings
+    assert all(finding.line for finding in result.findings)
