@@ -101,6 +101,8 @@ def _refused(name: Path | str, what: str, detail: str = "") -> FileUnreadableErr
 
 PROGRAMS = ("kind-program", "kind-iso")
 """Terms of texts with blocks of 3B or 4B somewhere, and with lines of ISO: what a drawing is not."""
+PLOTS = ("kind-hpgl", "kind-svg", "kind-curve-list")
+"""Terms of files that are read as drawings beside DXF."""
 HINTS: Mapping[str, str] = MappingProxyType(
     {
         "two-languages": "hint-one-language",
@@ -108,9 +110,7 @@ HINTS: Mapping[str, str] = MappingProxyType(
         "kind-dwg": "hint-save-dxf",
         "kind-step": "hint-save-dxf",
         "kind-iges": "hint-save-dxf",
-        "kind-hpgl": "hint-make-program",
-        "kind-curve-list": "hint-make-program",
-        "kind-svg": "hint-make-program",
+        **dict.fromkeys(PLOTS, "hint-make-program"),
         "kind-archive": "hint-unpack",
         "kind-office": "hint-plain-text",
         "kind-html": "hint-plain-text",

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from typing import Final
 
 from parser.drawing.model import UNITS
-from parser.drawing.plots.source import Sheet, Source, bulge
+from parser.drawing.plots.source import Sheet, Source, arc_places
 from parser.findings.errors import DrawingError
 from parser.text.encoding import printable
 
@@ -62,10 +62,8 @@ def _draw(sheet: Sheet, kind: str, words: list[str]) -> None:
         return
     center = complex(*numbers[4:6])
     turned = _turned(start - center, end - center, words[6].lower())
-    parts = math.ceil(abs(turned) / math.pi)
-    middle = center + (start - center) * cmath.exp(0.5j * turned)
-    places = [start, middle, end] if parts > 1 else [start, end]
-    sheet.way(places, [bulge(turned / parts)] * parts)
+    places, bulges = zip(*arc_places(start, center, turned, end), strict=True)
+    sheet.way([start, *places], [*bulges])
 
 
 def _turned(start: complex, end: complex, sense: str) -> float:

@@ -13,7 +13,7 @@ from typing import Any, Final, NamedTuple
 
 from parser.drawing.model import Unit
 from parser.drawing.plots.hpgl import Instruction, encoded, instructions
-from parser.drawing.plots.source import Sheet, Source, bulge
+from parser.drawing.plots.source import Sheet, Source, arc_places
 from parser.findings.catalogue import Remark
 from parser.findings.errors import DrawingError
 from parser.text.encoding import printable
@@ -21,6 +21,7 @@ from parser.text.encoding import printable
 PLOT_UNIT: Final = Unit("plot unit", 25.0)
 """1/40 mm, as HPGL has it; 1016 to the inch."""
 _FULL: Final = 2.0 * math.pi
+_SAME_RAD: Final = 1e-9
 _SETS: Final = {
     "VS", "FS", "PW", "WU", "UL", "AC", "CF", "FT", "LA", "MC", "MG", "NP", "NR", "OW", "PG", "PP", "PS", "RF", "SV",
     "TD", "TR", "VN", "WZ", "CO", "CT", "LO", "SI", "SR", "SA", "SD", "SS", "SL", "DI", "DR", "DV", "CP", "ES", "IW",
@@ -125,14 +126,14 @@ class _Plotter:
         how = {"layer": f"PEN {self._pen}", "color": min(max(self._pen, 1), 255)}
         return {**how, "linetype": "DASHED"} if self._is_broken else how
 
-    def _go(self, place: complex, turn: float = 0.0) -> None:
+    def _go(self, place: complex, bulge: float = 0.0) -> None:
         """Move to a place in plot units, along an arc where it has a bulge."""
         if self._is_down:
             if not self._way:
                 self._way = [self._at]
-            if place != self._at or turn:
+            if place != self._at or bulge:
                 self._way.append(place)
-                self._bulges.append(turn)
+                self._bulges.append(bulge)
         self._at = place
 
     def _places(self, numbers: list[float], *, by: bool) -> Iterator[complex]:
@@ -172,15 +173,12 @@ class _Plotter:
         self._about(self._place(complex(*numbers[:2]), by=True), math.radians(numbers[2]))
 
     def _about(self, center: complex, sweep: float) -> None:
-        """An arc in pieces of up to half a turn: of more a bulge says less and less."""
+        """An arc about a centre, by so many radians; a whole turn ends where it began."""
         sweep = math.copysign(min(abs(sweep), _FULL), sweep)
-        start, parts = self._at - center, max(math.ceil(abs(sweep) / math.pi), 1)
-        is_whole = abs(sweep) > _FULL - 1e-9
-        first = self._at
-        for part in range(1, parts + 1):
-            turned = sweep * part / parts
-            end = center + start * complex(math.cos(turned), math.sin(turned))
-            self._go(first if is_whole and part == parts else end, bulge(sweep / parts))
+        is_whole = abs(sweep) > _FULL - _SAME_RAD
+        end = self._at if is_whole else center + (self._at - center) * cmath.exp(1j * sweep)
+        for place, bulge in arc_places(self._at, center, sweep, end):
+            self._go(place, bulge)
 
     def _arc_through(self, numbers: list[float]) -> None:
         self._through(*(self._place(complex(*numbers[at : at + 2]), by=False) for at in (0, 2)))

@@ -1,6 +1,8 @@
 """What a file that is no DXF becomes: a document as a DXF file gives one, with its unit, so that all else reads it."""
 
+import cmath
 import math
+from collections.abc import Iterator
 from typing import Any, Final, NamedTuple
 
 from ezdxf.document import Drawing as Document
@@ -88,6 +90,14 @@ class Sheet:
             raise DrawingError("plot-too-long", most=MOST_WAYS)
 
 
-def bulge(sweep_rad: float) -> float:
-    """The bulge of an arc that sweeps up to a turn; beyond half a turn it is cut in two by whoever draws it."""
-    return math.tan(0.25 * sweep_rad)
+def arc_places(start: complex, center: complex, sweep_rad: float, end: complex) -> Iterator[tuple[complex, float]]:
+    """An arc of up to a turn as `Sheet.way` takes it: where it goes and with which bulge, from its start to its end.
+
+    It is cut in two where it sweeps more than half a turn: of more a bulge says less and less. Places are x + iy, in
+    numbers of the file.
+    """
+    parts = max(math.ceil(abs(sweep_rad) / math.pi), 1)
+    bulge = math.tan(0.25 * sweep_rad / parts)
+    for part in range(1, parts):
+        yield center + (start - center) * cmath.exp(1j * sweep_rad * part / parts), bulge
+    yield end, bulge

@@ -16,7 +16,7 @@ from xml.etree import ElementTree
 import svgelements
 
 from parser.drawing.model import Unit
-from parser.drawing.plots.source import MOST_WAYS, Sheet, Source, bulge
+from parser.drawing.plots.source import MOST_WAYS, Sheet, Source, arc_places
 from parser.findings.catalogue import Remark
 from parser.findings.errors import DrawingError
 from parser.text.encoding import printable
@@ -161,12 +161,9 @@ class _Pen:
         self.sheet.ellipse(self._place(arc.center), wide, high / abs(wide), (first, last), **how)
 
     def _arc(self, arc: Any) -> Iterator[tuple[complex, float]]:
-        """The ends and bulges of an arc, in two where it sweeps more than half a turn."""
-        if abs(arc.sweep) <= math.pi:
-            yield self._place(arc.end), bulge(-arc.sweep)
-            return
-        for end in (arc.point(0.5), arc.end):
-            yield self._place(end), bulge(-0.5 * arc.sweep)
+        """The places and bulges of a circular arc; seen from below, it turns the other way."""
+        start, center, end = map(self._place, (arc.start, arc.center, arc.end))
+        return arc_places(start, center, -float(arc.sweep), end)
 
 
 def _ways(path: Any) -> Iterator[list[Any]]:

@@ -61,12 +61,14 @@ def guided(cut: FigureCut, lag_um: float) -> FigureCut:
 
 def _guided(way: PassCut, lag_um: float, *, is_past: bool) -> PassCut:
     """The ways of the guides of a pass, from where it begins to where it ends, or past that and back."""
-    ahead, end = _ahead(way.along, lag_um, is_past=is_past), way.along.end_um[-1]
-    begin = ahead.start_um[0] if len(way.into) else way.along.start_um[0]
-    along = _chain(begin, ahead, ahead.end_um[-1] if is_past or len(way.out) else end)
-    into = _lead(way.into, way.into.start_um[0], begin) if len(way.into) else way.into
-    out = _lead(_back(way, lag_um), along.end_um[-1], way.out.end_um[-1]) if len(way.out) else way.out
-    return way._replace(into=into, along=along, out=out if len(out) else _chain(along.end_um[-1], out, end))
+    ahead = _ahead(way.along, lag_um, is_past=is_past)
+    begin, end = ahead.start_um[0], ahead.end_um[-1]
+    first, last = joined([way.into, way.along]).start_um[0], joined([way.along, way.out]).end_um[-1]
+    return way._replace(
+        into=_lead(way.into, first, begin),
+        along=_chain(begin, ahead, end),
+        out=_lead(_back(way, lag_um), end, last),
+    )
 
 
 def _back(way: PassCut, lag_um: float) -> Curves:
@@ -83,6 +85,8 @@ def _back(way: PassCut, lag_um: float) -> Curves:
 
 def _lead(way: Curves, start: Floats, end: Floats) -> Curves:
     """A lead from a place (2,) to another one: its lines turn a little, to where the arcs beside them are now."""
+    if not len(way):
+        return _chain(start, way, end)
     before, after = np.concatenate([start[None], way.end_um[:-1]]), np.concatenate([way.start_um[1:], end[None]])
     starts = np.where(way.is_arc[:, None], way.start_um, before)
     ends = np.where(way.is_arc[:, None], way.end_um, after)
