@@ -8,8 +8,9 @@ from typing import NamedTuple
 import numpy as np
 
 from parser.geometry.along import directions, headings_at
-from parser.geometry.curves import CurveKind, Floats, Ints
+from parser.geometry.curves import Bools, CurveKind, Floats, Ints
 from parser.geometry.distance import distance_to_curves
+from parser.geometry.near import near_places
 from parser.toolpath import Toolpath
 
 CLOSED_WITHIN_UM = 5.0
@@ -86,6 +87,8 @@ class Contour(NamedTuple):
     returns
         Whether it ends at its start, at a corner that it passed before, such as the end of a lead-in, or past that,
         running along its own path once more.
+    in_kerf
+        Whether it begins and ends in the kerf of contours that are cut before it, which close it.
     encloses
         Whether it turns back on itself anywhere; a path that always runs forward in some direction is a parting cut
         and need not close.
@@ -99,11 +102,12 @@ class Contour(NamedTuple):
     arcs: int
     returns: bool
     encloses: bool
+    in_kerf: bool = False
 
     @property
     def is_open(self) -> bool:
         """Whether it should close and does not."""
-        return self.encloses and not self.returns
+        return self.encloses and not (self.returns or self.in_kerf)
 
 
 def runs(toolpath: Toolpath) -> Ints:
@@ -143,7 +147,32 @@ def find_contours(toolpath: Toolpath, corner_um: Ints) -> tuple[Contour, ...]:
                 encloses=_turns_back(toolpath, rows, np.concatenate([ways.leaving[rows], ways.arriving[rows]])),
             )
         )
+    left = [at for at, contour in enumerate(found) if contour.is_open]
+    ends = np.array([(found[at].first - 1, found[at].last - 1) for at in left], dtype=np.int64).reshape(-1, 2)
+    in_kerf = are_in_kerf(toolpath, ends, np.array([found[at].tolerance_um for at in left]))
+    for at in np.array(left, dtype=np.int64)[in_kerf].tolist():
+        found[at] = found[at]._replace(in_kerf=True)
     return tuple(found)
+
+
+def are_in_kerf(toolpath: Toolpath, ends: Ints, tolerance_um: Floats) -> Bools:
+    """Which of contours (k,) begin and end on the paths of contours before them, within a tolerance, not at one place.
+
+    `ends` (k, 2) are the first row of each and its last one.
+    """
+    number = len(ends)
+    if not number:
+        return np.zeros(0, dtype=np.bool_)
+    place = np.concatenate([toolpath.start_um[ends[:, 0]], toolpath.end_um[ends[:, 1]]])
+    cut = np.flatnonzero(~toolpath.is_jump)
+    near = near_places(toolpath.picked(cut), place, float(tolerance_um.max()))
+    off, _ = distance_to_curves(toolpath, cut[near.row], *place[near.other].T)
+    before = (cut[near.row] < np.tile(ends[:, 0], 2)[near.other]) & (off <= np.tile(tolerance_um, 2)[near.other])
+    is_on = np.zeros(2 * number, dtype=np.bool_)
+    is_on[near.other[before]] = True
+    apart = np.hypot(*(place[:number] - place[number:]).T) > tolerance_um
+    both: Bools = is_on[:number] & is_on[number:] & apart
+    return both
 
 
 def _length(pair: Floats) -> float:

@@ -85,7 +85,7 @@ def contour_findings(
             values = _ends_of(contour) | {"gap": gap, "limit": limit}
             found.append(at_block(program.toolpath, program.lines, "3B302", contour.last - 1, **values))
         may_close = contour.is_open or contour.last - contour.first > 1  # one line or two are no figure
-        if may_close and not (contour.returns or may_stay_open) and suspected < MOST_SUSPECTED:
+        if may_close and not (contour.returns or contour.in_kerf or may_stay_open) and suspected < MOST_SUSPECTED:
             suspected += 1
             found += _suspects(program, contour, guilty[low:high])
     return found

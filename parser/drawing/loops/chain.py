@@ -13,9 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from parser.drawing.loops.joints import Ends, joints, near
-from parser.drawing.loops.once import Strings, merged, place_labels, strings_of
+from parser.drawing.loops.once import Strings, strings_of
 from parser.drawing.model import BESIDE_UM, SAME_WITHIN_UM, DrawnLoop, running
 from parser.geometry.along import directions, places
+from parser.geometry.arrangement import merged, place_labels
 from parser.geometry.curves import Bools, Curves, Floats, Ints, extents
 
 
@@ -72,7 +73,7 @@ class _Part(NamedTuple):
 
 def _numbers(place_um: Floats, branch_um: Floats, gap_um: float) -> Ints:
     """Numbers (k,) from 0 of places (k, 2), those at branches (b, 2) within the gap the same."""
-    label = place_labels(np.concatenate([place_um, branch_um]))
+    label = place_labels(np.concatenate([place_um, branch_um]), SAME_WITHIN_UM)
     pair, _ = near(branch_um, max(gap_um, SAME_WITHIN_UM))
     by = np.hypot(*(branch_um[pair[:, 0]] - branch_um[pair[:, 1]]).T)
     at_branch = label[len(place_um) :]

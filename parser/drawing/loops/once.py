@@ -4,8 +4,6 @@ Curves of a drawing, each drawn once: the border type is `DrawnOnce`.
 
 Curves that a drawing holds twice, one upon the other.
 
-Numbers for places: those that are one place share one.
-
 Curves that run over others for a part of their way, or beside them so near that they are the same.
 
 Strings: curves that an entity runs through in one go, each from the end of the one before it.
@@ -17,6 +15,7 @@ import numpy as np
 
 from parser.drawing.model import BESIDE_UM, SAME_WITHIN_UM
 from parser.geometry.along import places, places_at
+from parser.geometry.arrangement import labels
 from parser.geometry.curves import Bools, Curves, Floats, Ints, curves_between, joined
 from parser.geometry.near import near_pairs
 
@@ -190,36 +189,6 @@ def _all_round(curves: Curves, found: Covered, strings: Strings) -> Bools:
     return all_round
 
 
-def labels(values: Floats) -> Ints:
-    """A number for each value, in the same shape; values that follow each other within `SAME_WITHIN_UM` share one."""
-    order = np.argsort(values, axis=None)
-    step = np.diff(values.ravel()[order], prepend=-np.inf) > SAME_WITHIN_UM
-    label = np.empty(values.size, dtype=np.int64)
-    label[order] = np.cumsum(step)
-    return label.reshape(values.shape)
-
-
-def place_labels(place_um: Floats) -> Ints:
-    """A number (k,) from 0 for each of the places (k, 2)."""
-    key = labels(place_um[:, 0]) * (len(place_um) + 1) + labels(place_um[:, 1])
-    label: Ints = np.unique(key, return_inverse=True)[1]
-    return label
-
-
-def merged(label: Ints, pair: Ints) -> Ints:
-    """The labels (k,), from 0, where those of the pairs (p, 2) of labels are made one, and what these pair with too."""
-    to = np.arange(int(label.max(initial=-1)) + 1)
-    while True:
-        low = np.minimum(to[pair[:, 0]], to[pair[:, 1]])
-        if (to[pair] == low[:, None]).all():
-            joined: Ints = to[label]
-            return joined
-        for side in (0, 1):
-            np.minimum.at(to, to[pair[:, side]], low)
-            np.minimum.at(to, pair[:, side], low)
-        to = to[to]
-
-
 _MIX = np.random.default_rng(20260101).integers(-(1 << 62), 1 << 62, 7)  # odds and ends that mix the parts of a key
 
 
@@ -251,7 +220,7 @@ def _keys(curves: Curves) -> Ints:
     full = np.abs(curves.sweep_rad) == 2.0 * np.pi
     extreme_um = curves.center_um + curves.radius_um[:, None]
     ends[:, full] = np.stack([curves.center_um, extreme_um, extreme_um])[:, full]
-    label = np.stack([labels(ends[:, :, axis]) for axis in (0, 1)], axis=2)
+    label = np.stack([labels(ends[:, :, axis], SAME_WITHIN_UM) for axis in (0, 1)], axis=2)
     first, second = label[0], label[1]
     swap = ((first[:, 0] > second[:, 0]) | ((first[:, 0] == second[:, 0]) & (first[:, 1] > second[:, 1])))[:, None]
     return np.column_stack([np.where(swap, second, first), np.where(swap, first, second), label[2], curves.kind])

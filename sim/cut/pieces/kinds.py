@@ -19,6 +19,7 @@ import numpy as np
 import shapely
 
 from parser.geometry.curves import Floats, Ints
+from parser.shape.contours import CLOSED_WITHIN_UM, are_in_kerf
 from parser.shape.passes import WIDEST_TAB
 from parser.toolpath import Point
 from sim.cut.kerf.swept import Kerf, Swept
@@ -163,6 +164,9 @@ def kinds_of(found: list[Loose], kerf: Kerf) -> list[Kind]:
         for contour in piece.contours:
             largest[figure[contour]] = max(largest.get(figure[contour], 0.0), piece.outline_um.area)
     kinds: list[Kind] = []
+    rows = [swept.way.row for swept in kerf.swept]  # none of a contour that the run did not come to
+    ends = np.array([row[[0, -1]] if len(row) else (0, 0) for row in rows], dtype=np.int64).reshape(-1, 2)
+    in_kerf = are_in_kerf(kerf.toolpath, ends, np.full(len(ends), CLOSED_WITHIN_UM))
 
     @cache
     def ring_of(contour: int) -> shapely.Polygon | None:
@@ -170,7 +174,8 @@ def kinds_of(found: list[Loose], kerf: Kerf) -> list[Kind]:
 
     @cache
     def leads_of(contours: tuple[int, ...]) -> shapely.MultiLineString:
-        return lines_of([stretch for contour in contours for stretch in _leads(kerf.swept[contour].way, kerf)])
+        stretches = (_leads(kerf.swept[contour].way, kerf, is_led=not in_kerf[contour]) for contour in contours)
+        return lines_of([stretch for each in stretches for stretch in each])
 
     @cache
     def angle_of(contour: int) -> Floats:
@@ -279,9 +284,9 @@ def _was_led_by(piece: Loose, leads_of: Callable[[tuple[int, ...]], shapely.Mult
     return share_made(edge, leads_of(tuple(piece.contours)), offset_um) * edge.length > _LED * offset_um
 
 
-def _leads(way: WireWay, kerf: Kerf) -> list[Floats]:
-    """Stretches of a way that are leads; the first block of a contour is one, also where no pass was found."""
-    is_lead = kerf.leads[way.row] | (way.row == way.row[0])
+def _leads(way: WireWay, kerf: Kerf, *, is_led: bool) -> list[Floats]:
+    """Stretches of a way that are leads; of a contour that `is_led`, the first block is one, pass or not."""
+    is_lead = kerf.leads[way.row] | ((way.row == way.row[0]) & is_led)
     starts = np.flatnonzero(np.diff(is_lead, prepend=False) & is_lead)
     ends = np.flatnonzero(np.diff(is_lead, append=False) & is_lead) + 1
     return [way.place_um[low:high] for low, high in zip(starts.tolist(), ends.tolist(), strict=True)]

@@ -13,6 +13,7 @@ Linear-time sleeve-fitting polyline simplification algorithms, 1997).
 
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -25,7 +26,8 @@ from parser.findings.errors import SettingsError
 from parser.geometry.along import outline, places
 from parser.geometry.curves import Curves, Floats, Ints, curves_between, joined
 from parser.geometry.distance import feet
-from parser.shape.contours import CLOSED_WITHIN_UM, contour_rows
+from parser.shape.contours import CLOSED_WITHIN_UM, contour_rows, runs
+from parser.shape.kerf_ways import KerfWay, kerf_ways
 from parser.shape.passes import Pass, Passes, find_passes
 from parser.toolpath import Toolpath
 from sim.cut.kerf.swept import Kerf
@@ -110,9 +112,14 @@ def rings_of(toolpath: Toolpath) -> Rings:
     edges = _by_edge(found)
     _refuse_too_many(edges)
     block, contour = toolpath.source.block, contour_rows(toolpath)
+    closing = kerf_ways(toolpath, _first_rows(toolpath, [passes[0] for passes in edges if not _is_ring(passes)]))
     rings, open_blocks, within = [], [], []
     leads: list[PathPass] = []
     for passes in edges:
+        way = closing.get(int(_first_rows(toolpath, passes[:1])[0]))
+        if way is not None and not _is_ring(passes):
+            rings.append(_closed_by_kerf(toolpath, passes[0], way))
+            continue
         if not _is_ring(passes):
             open_blocks.append((int(block[passes[0].first]), int(block[passes[0].last])))
             continue
@@ -131,6 +138,28 @@ def rings_of(toolpath: Toolpath) -> Rings:
         lead_contour=np.concatenate([*within, contour[is_lead]]),
         open_blocks=tuple(open_blocks),
     )
+
+
+def _first_rows(toolpath: Toolpath, passes: Sequence[Pass]) -> Ints:
+    """(k,) the first row of the contour that each pass is in."""
+    begin = runs(toolpath)[:, 0]
+    return begin[np.searchsorted(begin, [pass_.first for pass_ in passes], side="right") - 1]
+
+
+def _closed_by_kerf(toolpath: Toolpath, pass_: Pass, way: KerfWay) -> PathEdge:
+    """The edge of a contour that begins and ends in the kerf of others; it encloses the part."""
+    first, past = runs(toolpath)[contour_rows(toolpath)[pass_.first]].tolist()
+    back = running(way.curves, np.arange(len(way.row)), way.backwards)
+    # Its ends are those of the contour, and of each curve the end of the one before it: whole µm part them.
+    back = replace(
+        back,
+        start_um=np.concatenate([toolpath.end_um[past - 1 : past], back.end_um[:-1]]),
+        end_um=np.concatenate([back.end_um[:-1], toolpath.start_um[first : first + 1]]),
+    )
+    block = toolpath.source.block
+    ring = joined([toolpath.picked(slice(first, past)), back])
+    loop = PathPass(ring, np.concatenate([block[first:past], block[way.row]]), 1)
+    return PathEdge((loop,), loop, orientation(ring), contour_rows(toolpath)[[pass_.first]])
 
 
 def _by_edge(found: Passes) -> list[list[Pass]]:

@@ -32,6 +32,31 @@ def test_closed_contours_are_silent(text: str) -> None:
     assert _codes(text) == []
 
 
+FIRST = "B0B5000B5000GYL2 B5000B0B5000GXL3 B0B10000B10000GYL2 B10000B0B10000GXL1 B0B10000B10000GYL4 B5000B0B5000GXL3"
+FIRST += " B0B5000B5000GYL4"
+BESIDE = "D B5000B7000B7000GYL1 D B0B2000B2000GYL4 B10000B0B10000GXL1 B0B10000B10000GYL2 B10000B0B10000GXL3"
+BESIDE += " B0B2000B2000GYL4"
+"""A square, and a part that has its right side in common with it: threaded in its kerf, round, and back into it."""
+
+
+def test_a_contour_that_begins_and_ends_in_the_kerf_of_another_one_is_closed() -> None:
+    assert _codes(f"{FIRST} {BESIDE}") == []
+    alone = BESIDE.removeprefix("D B5000B7000B7000GYL1 D ")
+    assert _closure_codes(alone) == ["3B301"]
+
+
+@pytest.mark.parametrize(
+    ("written", "wrong"),
+    [
+        ("B10000B0B10000GXL3", "B10000B0B9500GXL3"),  # it ends beside the kerf
+        ("B10000B0B10000GXL3", "B10000B0B10500GXL3"),
+        ("D B5000B7000B7000GYL1 D", "D B6000B7000B7000GYL1 D"),  # it begins beside it
+    ],
+)
+def test_one_that_begins_or_ends_beside_the_kerf_is_open(written: str, wrong: str) -> None:
+    assert _closure_codes(f"{FIRST} {wrong.join(BESIDE.rsplit(written, 1))}") == ["3B301"]
+
+
 OPEN = [
     HOLE.replace("GXL3", "GXL1"),
     HOLE.replace("B9900B0B39600GYNR1", "B9900B0B39000GYNR1"),  # short of its start
