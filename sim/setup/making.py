@@ -111,6 +111,8 @@ class Making(NamedTuple):
         How the wire goes round outside corners.
     no_core
         Whether small holes are cut without a core: the wire takes the slug away, and nothing falls.
+    common_edges
+        Whether edges that parts have in common are cut once; parts that touch are moved apart by a kerf for that.
     lag_um
         How far the wire lags behind its guides: the program leads these so that the wire cuts the part; 0 for a wire
         that stays straight.
@@ -137,6 +139,7 @@ class Making(NamedTuple):
     tab_um: float = 0.0
     corners: Corners = "sharp"
     no_core: bool = False
+    common_edges: bool = False
     lag_um: float = 0.0
     layers: tuple[LayerWish, ...] = ()
 
@@ -238,6 +241,7 @@ PROGRAM = Section(
             older="--corners",
         ),
         Key("no_core", Truth(), "making.no_core", default=False, option="--no-core"),
+        Key("common_edges", Truth(), "making.common_edges", default=False, option="--common-edges"),
         Key("lag_um", Number(WIRE_LAG_UM, "µm"), "making.lag_um", default=0.0, option="--lag"),
         Key("form", OneOf(FORMS), "writing.form", default=_AS_USUAL.form, option="--form"),
         Key("end_code", Name(), "writing.end_code", default=None, option="--end-code"),

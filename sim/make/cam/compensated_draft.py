@@ -31,7 +31,7 @@ def draft_of_cuts(cuts: Sequence[FigureCut]) -> Draft:
     rows = 0
     for at, cut in enumerate(cuts):
         if at:
-            jump = jump_between(*(np.array(each.thread.place_um) for each in (cuts[at - 1], cut)))
+            jump = jump_between(cuts[at - 1].ends_at_um, np.array(cut.thread.place_um))
             stops.append(Stop("pause", rows, 0))
             parts.append(jump)
             rows += len(jump)
@@ -117,7 +117,7 @@ def _sided(plan: CutPlan, on_contour: Sequence[FigureCut]) -> Iterator[_Sided]:
 
 
 def _refuse_misfits(plan: CutPlan, on_contour: Sequence[FigureCut]) -> None:
-    """CannotCutError for tabs, overcuts, holes without a core, and leads without lines.
+    """CannotCutError for tabs, overcuts, holes without a core, parts begun in a kerf, and leads without lines.
 
     Ways back over a tab would need the other side. The turns that take a slug away lie at offsets of their own.
     """
@@ -125,6 +125,8 @@ def _refuse_misfits(plan: CutPlan, on_contour: Sequence[FigureCut]) -> None:
         raise CannotCutError(Refusal("kept-tab"))
     if any(cut.is_coreless for cut in plan.cuts):
         raise CannotCutError(Refusal("kept-no-core"))
+    if any(cut.thread.by == "kerf" for cut in plan.cuts):
+        raise CannotCutError(Refusal("kept-common"))
     for cut in on_contour:
         if not all(_is_led(pass_) for pass_ in cut.passes):
             raise CannotCutError(Refusal("kept-lead", (cut.thread.place_um,), (("figure", str(cut.figure.number)),)))

@@ -63,7 +63,7 @@ class FigureEntry(TypedDict):
     length_um: Size
     time_s: Size | None
     thread_um: Point
-    thread_by: Annotated[str, one_of("asked", "marked", "chosen", "contour")]
+    thread_by: Annotated[str, one_of("asked", "marked", "chosen", "contour", "kerf")]
     side: Annotated[str, one_of("left", "right")]
     direction: Sense
     no_core: bool

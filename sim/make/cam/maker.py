@@ -29,7 +29,7 @@ from sim.base.progress import Progress, silent
 from sim.make.cam.compensated_draft import added_draft, draft_of_cuts, draft_of_plan, kept_draft
 from sim.make.cam.model import CannotCutError, CutPlan, Refusal
 from sim.make.cam.passes import figure_cut
-from sim.make.cam.planned import PlanRequest, planned
+from sim.make.cam.planned import PlanRequest, as_cut, planned
 from sim.make.cam.proof import ToProve, proved
 from sim.make.cam.target import Proof, least_um, target_of
 from sim.make.convert import Proof as HeldAgainst
@@ -150,8 +150,8 @@ def made_program(
 ) -> MadeProgram | NotMade:
     """A program of a drawing, proved on the machine of a scenario.
 
-    Holes without a core that fail the proof get one. Figures that fail it stay uncut where the program of the others
-    passes it.
+    Holes without a core that fail the proof get one, and parts that fail it where they begin in the kerf of others are
+    cut all round. Figures that fail it stay uncut where the program of the others passes it.
 
     Raises FileUnreadableError and DrawingError where there is no drawing, SettingsError where the dialect cannot say
     what it needs.
@@ -160,6 +160,9 @@ def made_program(
     done = _proved(request, wanted)
     if isinstance(done, MadeProgram) and not done.is_proved and (numbers := _to_core(done)):
         request = request._replace(with_core=numbers)
+        done = _proved(request, wanted)
+    if isinstance(done, MadeProgram) and not done.is_proved and (numbers := _to_cut_round(done)):
+        request = request._replace(whole=numbers)
         done = _proved(request, wanted)
     if isinstance(done, MadeProgram) and done.proof is not None and done.proof.at_fault:
         others = _proved(request._replace(at_fault=done.proof.at_fault), wanted)
@@ -175,12 +178,19 @@ def _to_core(done: MadeProgram) -> frozenset[int]:
     return coreless.intersection(each.number for each in at_fault) or coreless
 
 
+def _to_cut_round(done: MadeProgram) -> frozenset[int]:
+    """Numbers of parts that begin in the kerf of others and fail the proof; of all of them where it names none."""
+    in_kerf = frozenset(cut.figure.number for cut in done.plan.cuts if cut.thread.by == "kerf")
+    at_fault = () if done.proof is None else done.proof.at_fault
+    return in_kerf.intersection(each.number for each in at_fault) or in_kerf
+
+
 def _proved(request: PlanRequest, wanted: Wanted) -> MadeProgram | NotMade:
     """A program with its proof."""
     done = _unproved(request, wanted)
     if isinstance(done, NotMade):
         return done
-    done = _with_drawn(done, request.path)
+    done = _with_drawn(done, request)
     assert done.drawn is not None  # noqa: S101 - read before
     wire_way = None if done.unled is None else done.unled.toolpath
     given = ToProve(done.program, done.plan, done.drawn, done.written, wanted.bound_um, wire_way)
@@ -198,7 +208,7 @@ def unproved(
 
 
 def _unproved(request: PlanRequest, wanted: Wanted) -> MadeProgram | NotMade:
-    path, making = request.path, request.making
+    making = request.making
     try:
         done = _fitted(request, wanted, making.tolerance_um)
         fit = done.plan.drawing.fit
@@ -207,7 +217,7 @@ def _unproved(request: PlanRequest, wanted: Wanted) -> MadeProgram | NotMade:
             if _is_surely_within(done):
                 break
             if len(fits) > _SURELY_ALONE:
-                done = _with_drawn(done, path)
+                done = _with_drawn(done, request)
                 if not _is_rounded_off(done, request.scenario, wanted):
                     break
             done = _fitted(request, wanted, fit_um)._replace(drawn=done.drawn)
@@ -258,7 +268,7 @@ def _own_codes(wanted: Wanted) -> tuple[Remark, ...]:
     return (Remark("own-codes", {"codes": ", ".join(codes)}),) if codes else ()
 
 
-def _with_drawn(done: MadeProgram, path: Path) -> MadeProgram:
+def _with_drawn(done: MadeProgram, request: PlanRequest) -> MadeProgram:
     """With the drawing as it is drawn, read again where arcs were fitted to it."""
     if done.drawn is not None:
         return done
@@ -267,7 +277,8 @@ def _with_drawn(done: MadeProgram, path: Path) -> MadeProgram:
         return done._replace(drawn=plan.drawing)
     flatten_um = min(DEFAULT_FLATTEN_UM, _FLATTEN_SHARE * plan.making.tolerance_um)
     making = plan.making
-    return done._replace(drawn=read_drawing(path, making.layer, making.gap_um, flatten_um, unit=making.unit))
+    drawn = read_drawing(request.path, making.layer, making.gap_um, flatten_um, unit=making.unit)
+    return done._replace(drawn=as_cut(drawn, making, request.scenario))
 
 
 def _drafted(plan: CutPlan, wanted: Wanted) -> Draft:

@@ -10,12 +10,12 @@ from typing import Final, Literal, NamedTuple
 from controller.offset.shifted import Side
 from parser.drawing.model import Drawing, Entity, LeftOut
 from parser.findings.catalogue import Remark
-from parser.geometry.curves import Curves, Ints, extents
+from parser.geometry.curves import Curves, Floats, Ints, extents
 from parser.toolpath import Point
 from sim.setup.making import LeadIn, Making, SideWish
 
 FigureKind = Literal["hole", "outline"]
-ThreadedBy = Literal["asked", "marked", "chosen", "contour"]
+ThreadedBy = Literal["asked", "marked", "chosen", "contour", "kerf"]
 
 
 class Bridge(NamedTuple):
@@ -195,7 +195,8 @@ class Thread(NamedTuple):
     place_um
         The thread point.
     by
-        Whether it was asked for, stands in the drawing, was chosen, or is a place of the contour itself.
+        Whether it was asked for, stands in the drawing, was chosen, is a place of the contour itself, or one in the
+        kerf of another figure.
     entry
         Where the wire comes to the contour.
     lead
@@ -254,6 +255,13 @@ class FigureCut(NamedTuple):
     passes: tuple[PassCut, ...]
     cut_off: tuple[PassCut, ...] = ()
     is_coreless: bool = False
+
+    @property
+    def ends_at_um(self) -> Floats:
+        """Where (2,) the wire is at its end."""
+        last = (*self.passes, *self.cut_off)[-1]
+        place: Floats = (last.out if len(last.out) else last.along).end_um[-1]
+        return place
 
 
 UNCUT: Final = (

@@ -7,6 +7,7 @@ from typing import NamedTuple
 from parser.drawing.model import Drawing
 from parser.drawing.read import read_drawing
 from sim.base.progress import Progress, silent
+from sim.make.cam.apart import moved_apart
 from sim.make.cam.contacts import walls
 from sim.make.cam.coreless import coreless
 from sim.make.cam.model import (
@@ -21,6 +22,7 @@ from sim.make.cam.model import (
     refuse_strange_layers,
     with_sides,
 )
+from sim.make.cam.nest import InKerf, cut_in_kerf, nests_of, refuse_misfits
 from sim.make.cam.order import in_order
 from sim.make.cam.parts import parts_of
 from sim.make.cam.passes import figure_cut, offsets_of
@@ -32,7 +34,8 @@ from sim.setup.scenario import Scenario
 class PlanRequest(NamedTuple):
     """What is asked for: of which drawing, how, on whose machine, whom it tells, and what failed a proof.
 
-    `at_fault` are figures that stay uncut, `with_core` numbers of holes that keep their cores.
+    `at_fault` are figures that stay uncut, `with_core` numbers of holes that keep their cores, `whole` those of parts
+    that are cut all round, whatever edges they have in common.
     """
 
     path: Path
@@ -41,6 +44,7 @@ class PlanRequest(NamedTuple):
     progress: Progress = silent
     at_fault: tuple[NotProved, ...] = ()
     with_core: frozenset[int] = frozenset()
+    whole: frozenset[int] = frozenset()
 
 
 def planned(request: PlanRequest, fit_um: float | None = None) -> CutPlan:
@@ -49,17 +53,19 @@ def planned(request: PlanRequest, fit_um: float | None = None) -> CutPlan:
     Figures that cannot be cut stay uncut, as long as others can. CannotCutError where none can, or where the drawing
     asks for what cannot be.
     """
-    path, making, scenario, progress, at_fault, with_core = request
+    path, making, scenario, progress, at_fault, with_core, whole = request
     progress("drawing", 0, 1)
     fit_um = making.tolerance_um if fit_um is None else fit_um
     drawing = read_drawing(path, making.layer, making.gap_um, fit_um=fit_um, unit=making.unit)
+    drawing = as_cut(drawing, making, scenario)
     progress("figures", 0, 1)
+    refuse_misfits(making, _passes_um(making, scenario)[0])
     parts = parts_of(drawing, making)
     refuse_strange_layers(parts.figures, making)
     parts = parts.without(at_fault)
     while True:
         try:
-            plan = _plan_of(drawing, parts, making, scenario)
+            plan = _plan_of(drawing, parts, making, scenario, whole)
             return coreless(plan, with_core) if making.no_core else plan
         except CannotCutError as error:
             rest = parts.without(error.refusals)
@@ -68,27 +74,48 @@ def planned(request: PlanRequest, fit_um: float | None = None) -> CutPlan:
             parts = rest
 
 
-def _plan_of(drawing: Drawing, parts: Parts, making: Making, scenario: Scenario) -> CutPlan:
+def as_cut(drawing: Drawing, making: Making, scenario: Scenario) -> Drawing:
+    """A drawing as it is cut: with touching parts moved apart where their common edges are to be cut once."""
+    by_um = _passes_um(making, scenario)[0]
+    return moved_apart(drawing, 2.0 * by_um) if making.common_edges and by_um > 0.0 else drawing
+
+
+def _passes_um(making: Making, scenario: Scenario) -> tuple[float, ...]:
+    return making.passes_um or (scenario.wire.reach_um,)
+
+
+def _plan_of(
+    drawing: Drawing, parts: Parts, making: Making, scenario: Scenario, whole: frozenset[int] = frozenset()
+) -> CutPlan:
     """How some parts are cut. CannotCutError where they cannot be, or some of them."""
-    passes_um = making.passes_um or (scenario.wire.reach_um,)
+    passes_um = _passes_um(making, scenario)
     figures = with_sides(parts.figures, making)
     widest_um = [max(offsets_of(figure, passes_um, making)) for figure in figures]
     notes = (*parts.notes, *walls(figures, widest_um, scenario.wire.reach_um))
-    threads = threads_of(drawing, figures, making, max(widest_um))
-    notes += thread_notes(figures, threads, making)
-    order = in_order(figures, threads, making)
-    cuts = _cuts([(figures[each], threads[each]) for each in order], passes_um, making)
+    nests = nests_of(figures, making, passes_um[0], whole)
+    in_kerf = {at: each.thread for at, each in nests.in_kerf.items()}
+    threads = threads_of(drawing, figures, making, max(widest_um), in_kerf)
+    notes += (*nests.notes, *thread_notes(figures, threads, making))
+    order = nests.in_order(in_order(figures, threads, making))
+    ways = [nests.in_kerf.get(each) if threads[each].by == "kerf" else None for each in order]
+    cuts = _cuts([(figures[each], threads[each]) for each in order], ways, passes_um, making)
     return CutPlan(drawing, making, passes_um, cuts, parts.uncut, parts.left_out, notes)
 
 
 def _cuts(
-    threaded: Sequence[tuple[Figure, Thread]], passes_um: tuple[float, ...], making: Making
+    threaded: Sequence[tuple[Figure, Thread]],
+    in_kerf: Sequence[InKerf | None],
+    passes_um: tuple[float, ...],
+    making: Making,
 ) -> tuple[FigureCut, ...]:
-    """How figures are cut from their threads. CannotCutError with all of them that cannot be."""
+    """How figures are cut from their threads, or in the kerf of others. CannotCutError with all that cannot be."""
     cuts, refusals = list[FigureCut](), list[Refusal]()
-    for figure, thread in threaded:
+    for (figure, thread), way in zip(threaded, in_kerf, strict=True):
         try:
-            cuts.append(figure_cut(figure, thread, passes_um, making))
+            if way is None:
+                cuts.append(figure_cut(figure, thread, passes_um, making))
+            else:
+                cuts.append(cut_in_kerf(figure, way, passes_um[0], making))
         except CannotCutError as error:
             if not error.refusals:
                 raise

@@ -7,6 +7,7 @@ Thread points that stand in the drawing: points and circles on the layer of thre
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from types import MappingProxyType
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -194,17 +195,22 @@ def _each_once(place: Floats) -> Floats:
 
 
 _ROUND = ("arc", "tangent")
+_WITHOUT_LEAD = ("contour", "kerf")
+_NONE: Mapping[int, Thread] = MappingProxyType({})
 _SPARE_UM = 3.0  # more than places move from one side to the other as they become whole µm
 _MOST_NUMBERS = 20  # of figures that one refusal names
 _LEAST_UM = 1.0  # what leads of an offset of 0 keep off contours, but for their ends
 
 
-def threads_of(drawing: Drawing, figures: Sequence[Figure], making: Making, reach_um: float) -> tuple[Thread, ...]:
+def threads_of(
+    drawing: Drawing, figures: Sequence[Figure], making: Making, reach_um: float, in_kerf: Mapping[int, Thread] = _NONE
+) -> tuple[Thread, ...]:
     """A thread point for each figure, and a lead from there that keeps from all contours by the largest offset.
 
     First come the points that are asked for, then those of the layer of thread points, or points of the drawing that
-    lie alone in the waste of one hole; all others are chosen. Where the offset is 0 and nothing else is asked, the wire
-    begins on the contour. CannotCutError where a thread point cannot be, or there is no room for one.
+    lie alone in the waste of one hole; then those of `in_kerf`; all others are chosen. Where the offset is 0 and
+    nothing else is asked, the wire begins on the contour. CannotCutError where a thread point cannot be, or there is no
+    room for one.
     """
     waste = _Waste(figures, reach_um)
     threads = waste.threads_at(_whole(making.starts_um), "asked", {})
@@ -212,6 +218,7 @@ def threads_of(drawing: Drawing, figures: Sequence[Figure], making: Making, reac
         threads |= waste.lone(points_of(drawing), threads)
     else:
         threads |= waste.threads_at(marks_of_layer(drawing, making.thread_layer), "marked", threads)
+    threads = {**in_kerf, **threads}
     wanted = np.array([at for at in range(len(figures)) if at not in threads], dtype=np.int64)
     if len(wanted) and (reach_um > 0.0 or making.lead_um is not None):
         threads |= waste.chosen(wanted, making, threads)
@@ -245,7 +252,7 @@ def _straightened(figures: Sequence[Figure], threads: Sequence[Thread], making: 
         return (Remark("straight-back"),)
     straight: dict[bool, list[str]] = {True: [], False: []}
     for figure, thread in zip(figures, threads, strict=True):
-        if thread.lead != making.lead and thread.by != "contour":
+        if thread.lead != making.lead and thread.by not in _WITHOUT_LEAD:
             straight[making.lead in _ROUND and not figure.runs_inside].append(str(figure.number))
     named = (("straight-leads", straight[False]), ("straight-to-parts", straight[True]))
     return tuple(Remark(name, {"figures": ", ".join(numbers)}) for name, numbers in named if numbers)
@@ -341,7 +348,7 @@ class _Waste:
         back and forth: the lead of a pass back would cut the slug in two.
         """
         lead = making.lead
-        lead_off = {at: thread for at, thread in threads.items() if thread.by != "contour"}
+        lead_off = {at: thread for at, thread in threads.items() if thread.by not in _WITHOUT_LEAD}
         places = {at: np.array(each.place_um, dtype=np.float64) for at, each in lead_off.items()}
         found = dict(threads)
         if lead == "point":

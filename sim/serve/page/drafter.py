@@ -111,6 +111,7 @@ def _making(request: PageRequest) -> Making:
         tab_um=from_mm(number_of(tab, OVERCUT_MM, Message("name-tab"))) if tab else 0.0,
         lag_um=number_of(lag, WIRE_LAG_UM, Message("name-lag")) if lag else 0.0,
         no_core=request["no_core"] == "yes",
+        common_edges=request["common_edges"] == "yes",
     )
     refuse_odd(making, "the program")
     return making
@@ -139,7 +140,9 @@ _CONTROLS: Final = {
     "--pick": "open.picks",
     "--drawing-unit": "open.unit",
     "--lag": "open.lag",
+    "--tab": "open.tab",
     "--no-core": "open.no-core",
+    "--common-edges": "open.common-edges",
     "--pass": "open.passes",
     r"--start X,Y \S+ --thread-layer": "open.starts",
     r"--start(?: X,Y)?": "open.starts",

@@ -35,6 +35,7 @@ MAKE_KEYS: Final = (
     "tab_mm",
     "led_um",
     "no_core",
+    "common_edges",
     "picks",
     "starts",
     *READ_KEYS,

@@ -5,12 +5,16 @@ The ways of a plan on a page: contours, passes and leads in px, and which way ea
 The picture of a plan by its name, as those who write pictures ask for it.
 """
 
+import math
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
 from typing import Final, NamedTuple
 
 import numpy as np
 
 from parser.findings.catalogue import Language
 from parser.geometry.curves import Curves, Floats
+from parser.toolpath import Point
 from parser.units import mm
 from sim.make.cam.model import CutPlan, FigureCut, Uncut
 from sim.show.draw import style
@@ -36,6 +40,8 @@ from sim.show.texts import Words, bilingual
 from sim.show.texts.phrases import numbered
 
 _LEAST_UM = 100.0
+_BACK_UM = 1.0
+"""A wire that ends so near to its thread point is back there."""
 
 
 class Heading(NamedTuple):
@@ -142,8 +148,21 @@ def _draw_ways(canvas: Canvas, page: Page, plan: CutPlan) -> None:
             for lead in (pass_.into, pass_.out):
                 _stroke(canvas, line_px(lead, page.view), Paint.ACTUAL, _LEAD_WIDTH * unit)
         _stroke(canvas, line_px(cut.figure.contour, page.view), Paint.IDEAL, style.IDEAL_WIDTH * unit)
-    places = page.view.to_px(np.array([cut.thread.place_um for cut in plan.cuts]))
-    canvas.dashed(places, Paint.JUMP, style.JUMP_WIDTH * unit, style.DASH * unit, style.DASH_GAP * unit)
+    for places in _jumps(plan.cuts):
+        line = page.view.to_px(np.array(places))
+        canvas.dashed(line, Paint.JUMP, style.JUMP_WIDTH * unit, style.DASH * unit, style.DASH_GAP * unit)
+
+
+def _jumps(cuts: Sequence[FigureCut]) -> Iterator[list[Point]]:
+    """Jumps between figures, those in one go that begin at thread points again: the wire came back to these."""
+    places = [cuts[0].thread.place_um]
+    for before, cut in pairwise(cuts):
+        end = Point(*before.ends_at_um.tolist())
+        if math.dist(end, before.thread.place_um) > _BACK_UM:
+            yield places
+            places = [end]
+        places.append(cut.thread.place_um)
+    yield places
 
 
 def _paint_of(plan: CutPlan, uncut: Uncut) -> Paint:

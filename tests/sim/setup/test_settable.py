@@ -128,6 +128,7 @@ TYPED: dict[str, tuple[list[str], str]] = {
     "tab_mm": (["3mm"], "3.0"),
     "corners": (["round"], "'round'"),
     "no_core": ([], "true"),
+    "common_edges": ([], "true"),
     "lag_um": (["20um"], "20.0"),
     "form": (["aligned"], "'aligned'"),
     "end_code": (["MJ"], "'MJ'"),

@@ -34,6 +34,7 @@ export function wireDrawing(around) {
   const tab = element("#tab", HTMLInputElement);
   const lag = element("#lag", HTMLInputElement);
   const noCore = element("#no-core", HTMLInputElement);
+  const common = element("#common-edges", HTMLInputElement);
   const picks = element("#picks", HTMLInputElement);
   const starts = element("#starts", HTMLInputElement);
   const setsStarts = element("#click-starts", HTMLInputElement);
@@ -107,7 +108,8 @@ export function wireDrawing(around) {
     making = number;
     led = lag.value.trim();
     const own = { language: written.value, offset_mm: passes.value.trim(), tab_mm: tab.value.trim(), picks: picks.value, starts: starts.value };
-    const how = { led_um: lag.value.trim(), no_core: noCore.checked ? "yes" : "", ...reading() };
+    const [no_core, common_edges] = [noCore, common].map((box) => (box.checked ? "yes" : ""));
+    const how = { led_um: lag.value.trim(), no_core, common_edges, ...reading() };
     around.follow(asked.draft({ ...around.values(), drawing: number, ...own, ...how }));
   });
   for (const field of [join, unit]) field.addEventListener("change", look);

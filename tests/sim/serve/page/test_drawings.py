@@ -174,6 +174,19 @@ def test_holes_are_cut_without_a_core_where_that_is_ticked(tmp_path: Path) -> No
     assert "leave “holes up to 10 mm without a core” out, or give “offset of each pass mm”" in refused["told"][0]["en"]
 
 
+def test_edges_in_common_are_cut_once_where_that_is_ticked(tmp_path: Path) -> None:
+    def two(space: Modelspace) -> None:
+        for x in (0, 6):
+            space.add_lwpolyline([(x, 0), (x + 6, 0), (x + 6, 5), (x, 5)], close=True)
+
+    drawing = drawn(tmp_path, two)
+    found = made(drawing, tmp_path / "made.json", common_edges="yes")
+    assert (found["verdict"], found["told"][0]["en"]) == ("pass", "proved")
+    assert any("共边只切一次" in text["zh"] for text in found["told"])
+    refused = made(drawing, tmp_path / "made.json", common_edges="yes", led_um="20")
+    assert "leave “corrected wire lag µm” out, or “edges in common are cut once”" in refused["told"][0]["en"]
+
+
 def test_thread_points_of_the_page_are_taken_and_its_control_is_named(drawing: Path, tmp_path: Path) -> None:
     chosen = made(drawing, tmp_path / "made.json")
     (said,) = [text for text in chosen["told"] if text["en"].startswith("chosen")]
