@@ -33,6 +33,7 @@ _COMMANDS = {
     "program": "sim.cli.program",
     "replay": "sim.cli.replay",
     "run": "sim.cli.run",
+    "time": "sim.cli.time",
 }
 
 

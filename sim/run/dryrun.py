@@ -32,6 +32,7 @@ from sim.check.travel import ROUNDING_UM, beyond_um
 from sim.cut.remains import Remains
 from sim.measure.causes import BlockSteps, Deviations
 from sim.measure.compare.result import Comparison
+from sim.measure.factor import Interval, factor_of, interval_of
 from sim.measure.passes import PassFigures
 from sim.run.prepare import Prepared
 from sim.setup.expectations import Missed
@@ -200,6 +201,11 @@ class DryRun:
     checked: tuple[Finding, ...]
     coverage: Coverage
     missed: tuple[Missed, ...] = ()
+
+    @property
+    def time_s(self) -> Interval | None:
+        """How long it takes, by no cut of this machine; None where a program for the card set its own speeds."""
+        return None if self.feeds is None else interval_of(self.ran_s, factor_of(np.empty(0)))
 
     @property
     def has_trims(self) -> bool:

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any, Final, NamedTuple
 
 from parser.findings.catalogue import Bilingual, Language
-from sim.setup import scenario
+from sim.setup import scenario, shop
 from sim.setup.expectations import EXPECT
 from sim.setup.key_words import setting_text, words, words_of
 from sim.setup.machine import machine
@@ -52,6 +52,11 @@ def machine_schema() -> dict[str, Any]:
     return schema
 
 
+def shop_schema() -> dict[str, Any]:
+    """JSON schema of a shop file."""
+    return _file_schema("a shop file of drycut (docs/time.md)", Section("shop", (), form="top"), shop.SECTIONS)
+
+
 _MAY_BE_LEFT_OUT: Final = ("arm",)
 
 
@@ -80,7 +85,12 @@ def _file_schema(title: str, top: Section, sections: Iterable[Section]) -> dict[
     return {"$schema": DRAFT, "title": title, **whole}
 
 
-DOCUMENTS: Mapping[Language, Path] = {"en": Path("docs/scenarios.md"), "zh": Path("docs/scenarios.zh.md")}
+DOCUMENTS: tuple[tuple[Language, Path], ...] = (
+    ("en", Path("docs/scenarios.md")),
+    ("zh", Path("docs/scenarios.zh.md")),
+    ("en", Path("docs/time.md")),
+    ("zh", Path("docs/time.zh.md")),
+)
 _TABLE = re.compile(r"(<!-- keys: ([\w ]+); .*? -->\n).*?(\n<!-- end of keys -->)", re.DOTALL)
 
 
@@ -106,6 +116,7 @@ def _tables(language: Language) -> dict[str, str]:
         "quiz": _table((_row(QUIZ, key) for key in QUIZ.keys), language),
         "machine": _table((_row(*of) for of in of_machine if _is_needed(*of)), language, left_out=("default",)),
         "machine that may be left out": _table((_row(*of) for of in of_machine if not _is_needed(*of)), language),
+        "shop": _table((_row(section, key) for section in shop.SECTIONS for key in section.keys), language),
     }
 
 
@@ -177,5 +188,5 @@ def _words(of: str) -> Mapping[str, Any]:
 
 
 if __name__ == "__main__":
-    for language, path in DOCUMENTS.items():
+    for language, path in DOCUMENTS:
         path.write_text(renewed(path.read_text(encoding="utf-8"), language), encoding="utf-8", newline="\n")

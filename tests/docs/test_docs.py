@@ -267,7 +267,7 @@ KEYS = {
 
 
 def test_tables_of_keys_are_those_of_the_keys() -> None:
-    for language, path in DOCUMENTS.items():
+    for language, path in DOCUMENTS:
         page = read(ROOT / path)
         assert renewed(page, language) == page, "renew them: make pages"
         assert renewed(page.replace("| `[wire] lag_um` |", "| `[wire] lagg_um` |"), language) == page

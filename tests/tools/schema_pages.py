@@ -11,18 +11,24 @@ from sim.make.cam.document_model import PROGRAM
 from sim.run.ballbar.model import BALLBAR
 from sim.run.report.drawing import COMPARE
 from sim.run.report.model import REPORT
-from sim.setup.key_tables import machine_schema, scenario_schema
+from sim.run.times.model import TIME
+from sim.setup.key_tables import machine_schema, scenario_schema, shop_schema
 from sim.show.findings.explained import EXPLAIN
 from sim.show.findings.json import CHECK
 from sim.show.index_page.model import INDEX
 
 DOCS = Path(__file__).parents[2] / "docs"
-DOCUMENTS = (BALLBAR, CHECK, COMPARE, DECODE, EXPLAIN, INDEX, PROGRAM, REPORT)
+DOCUMENTS = (BALLBAR, CHECK, COMPARE, DECODE, EXPLAIN, INDEX, PROGRAM, REPORT, TIME)
 
 
 def pages() -> Iterator[tuple[Path, str]]:
     """Each file of a schema, and what it is to hold."""
-    written = {"scenario": scenario_schema(), "machine": machine_schema(), "settings": settings_schema()}
+    written = {
+        "scenario": scenario_schema(),
+        "machine": machine_schema(),
+        "settings": settings_schema(),
+        "shop": shop_schema(),
+    }
     for name, schema in written.items():
         yield DOCS / f"{name}.schema.json", json.dumps(schema, indent=2, ensure_ascii=False) + "\n"
     for document in DOCUMENTS:

@@ -45,6 +45,7 @@ from sim.run.report.model import (
     CoverageEntry,
     FindingEntry,
     HeaderEntry,
+    IntervalEntry,
     MachineEntry,
     NoHeaderEntry,
     ProgramEntry,
@@ -187,7 +188,11 @@ def build_report(run: DryRun) -> ReportDocument:
             "length_um": rounded(run.ran_um),
             "steps": len(run.stepped),
         },
-        "time_s": {"total": rounded(run.ran_s), "by_block": numbers(run.block_time_s)},
+        "time_s": {
+            "total": rounded(run.ran_s),
+            "interval": _interval(run),
+            "by_block": numbers(run.block_time_s),
+        },
         "ended": ended_entry(run),
         "contours": [_contour(contour, run.block_time_s) for contour in run.whole_contours],
         "thread_points": thread_entries(run),
@@ -315,6 +320,13 @@ def _interpolator(run: DryRun) -> InterpolatorEntry:
         "axis_um": None if sampling is None else [rounded(axis) for axis in sampling.axis_um],
         "chord_um": None if sampling is None else rounded(sampling.chord_um),
     }
+
+
+def _interval(run: DryRun) -> IntervalEntry | None:
+    if run.time_s is None:
+        return None
+    least, _, most, level = run.time_s
+    return {"least": rounded(least), "most": rounded(most), "level": level, "from_cuts": 0}
 
 
 def _contour(contour: Contour, block_time_s: Floats) -> ContourEntry:

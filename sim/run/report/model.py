@@ -114,10 +114,20 @@ class SummaryEntry(TypedDict):
     steps: Count
 
 
+class IntervalEntry(TypedDict):
+    """Between which times it lies, how sure that is, and how many cuts of the machine say so."""
+
+    least: Size
+    most: Size
+    level: Annotated[float, between(0, 1)]
+    from_cuts: Count
+
+
 class TimeEntry(TypedDict):
-    """Time of the run to its last step, and the share of each block."""
+    """Time of the run to its last step, and the share of each block; no interval of what a program in C timed."""
 
     total: Size
+    interval: IntervalEntry | None
     by_block: Annotated[list[Size], of_length(1)]
 
 

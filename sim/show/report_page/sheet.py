@@ -16,7 +16,7 @@ from sim.setup.part import DEFAULT_DENSITY_G_CM3, SHEET
 from sim.show.report_page.findings import ShownFinding, gravest_findings
 from sim.show.report_page.tables import Column, ReportTable, called, column_of, counted, millimetres, reached, timed
 from sim.show.texts import bilingual
-from sim.show.texts.phrases import lasting, listed, machine_name, numbered, same
+from sim.show.texts.phrases import lasting, lasting_within, listed, machine_name, numbered, same
 
 MOST_THREADS: Final = 12
 """Thread points that have room on the sheet."""
@@ -143,8 +143,8 @@ def _passes(report: ReportDocument) -> Bilingual:
 def _time(run: DryRun) -> Bilingual:
     jumping_s = float(run.block_time_s[run.toolpath.is_jump].sum())
     if not jumping_s:
-        return lasting(run.ran_s)
-    return bilingual("sheet.time-is", total=lasting(run.ran_s), cutting=lasting(run.ran_s - jumping_s))
+        return lasting_within(run)
+    return bilingual("sheet.time-is", total=lasting_within(run), cutting=lasting(run.ran_s - jumping_s))
 
 
 def _pieces(pieces: Pieces) -> Bilingual:

@@ -28,7 +28,7 @@ from sim.show.terminal.printer import COLOURS, painted, say, styled
 from sim.show.terminal.streams import outlet
 from sim.show.terminal.wrap import width_of
 from sim.show.texts import Words
-from sim.show.texts.phrases import lasting, machine_name, numbered
+from sim.show.texts.phrases import lasting, lasting_within, machine_name, numbered
 from sim.table.losses import Peak
 
 _MOST_PIECES = 4
@@ -186,7 +186,7 @@ def _work_rows(run: DryRun, tell: Words) -> list[Row]:
     kinds = numbered({"line": len(toolpath) - arcs - jumps, "arc": arcs, "jump": jumps})
     wire, how = scenario.wire, value_word(scenario.machine.controller.interpolation)
     widths = {"kerf": f"{mm(wire.kerf_um):g}", "wire": f"{mm(wire.diameter_um):g}", "gap": f"{wire.spark_gap_um:g}"}
-    time = tell("summary.time-of", time=lasting(run.ran_s), thickness=f"{scenario.thickness_mm:g}")
+    time = tell("summary.time-of", time=lasting_within(run), thickness=f"{scenario.thickness_mm:g}")
     lag = [(tell("summary.wire-lag"), f"{scenario.wire_lag_um:g} µm")] if scenario.wire_lag_um else []
     return [
         (tell("summary.machine"), getattr(machine_name(scenario.machine), tell.language)),

@@ -8,9 +8,11 @@ from parser.dialect.reader import Assumption
 from parser.findings.catalogue import LANGUAGES, Bilingual, term
 from parser.shape.passes import Pass
 from sim.base.units import clock
+from sim.measure.factor import UNKNOWN, Interval
 from sim.show.texts.texts import bilingual
 
 if TYPE_CHECKING:
+    from sim.run.dryrun import DryRun
     from sim.setup.machine.machine import Machine
 
 _UNITS_OF_TIME = {" h": "phrases.hours", " min": "phrases.minutes", " s": "phrases.seconds"}
@@ -63,6 +65,21 @@ def lasting(seconds: float) -> Bilingual:
     for unit, key in _UNITS_OF_TIME.items():
         chinese = chinese.replace(unit, bilingual(key).zh)
     return Bilingual(english, chinese)
+
+
+def lasting_within(run: "DryRun") -> Bilingual:
+    """How long a run takes, with its interval; without one where a program for the card set its own speeds."""
+    return lasting(run.ran_s) if run.time_s is None else with_interval(run.time_s, 0)
+
+
+def with_interval(time_s: Interval, from_cuts: int) -> Bilingual:
+    """A time with its interval, such as ``3 h 12 min (2 h 40 min … 4 h 5 min, 90 %, from 14 cuts of this shop)``."""
+    least, middle, most = map(lasting, time_s[:3])
+    if not from_cuts:
+        return bilingual("time.without-cuts", middle=middle, share=round(100.0 * UNKNOWN))
+    cuts = bilingual("time.one-cut" if from_cuts == 1 else "time.some-cuts", number=from_cuts)
+    level = round(100.0 * time_s.level)
+    return bilingual("time.with-interval", middle=middle, least=least, most=most, level=level, cuts=cuts)
 
 
 def counted_pass(pass_: Pass, among: int) -> Bilingual:
