@@ -120,7 +120,7 @@ def _size(run: DryRun, report: ReportDocument) -> Iterator[Figure]:
             bilingual("report.card-time"), "time_s.total", total, lasting(total), note=bilingual("report.card-speeds")
         )
     else:
-        yield Figure(bilingual("report.time"), "time_s.total", total, lasting_within(run), note=work)
+        yield Figure(bilingual("report.time"), "time_s.total", total, lasting_within(run.ran_s, run.time_s), note=work)
     jumps, arcs = int(run.toolpath.is_jump.sum()), int(run.toolpath.is_arc.sum())
     kinds = numbered({"line": len(run.toolpath) - arcs - jumps, "arc": arcs, "jump": jumps})
     yield _figure("blocks", report, "summary.blocks")._replace(note=kinds)

@@ -186,7 +186,7 @@ def _work_rows(run: DryRun, tell: Words) -> list[Row]:
     kinds = numbered({"line": len(toolpath) - arcs - jumps, "arc": arcs, "jump": jumps})
     wire, how = scenario.wire, value_word(scenario.machine.controller.interpolation)
     widths = {"kerf": f"{mm(wire.kerf_um):g}", "wire": f"{mm(wire.diameter_um):g}", "gap": f"{wire.spark_gap_um:g}"}
-    time = tell("summary.time-of", time=lasting_within(run), thickness=f"{scenario.thickness_mm:g}")
+    time = tell("summary.time-of", time=lasting_within(run.ran_s, run.time_s), thickness=f"{scenario.thickness_mm:g}")
     lag = [(tell("summary.wire-lag"), f"{scenario.wire_lag_um:g} µm")] if scenario.wire_lag_um else []
     return [
         (tell("summary.machine"), getattr(machine_name(scenario.machine), tell.language)),

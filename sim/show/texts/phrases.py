@@ -12,7 +12,6 @@ from sim.measure.factor import UNKNOWN, Interval
 from sim.show.texts.texts import bilingual
 
 if TYPE_CHECKING:
-    from sim.run.dryrun import DryRun
     from sim.setup.machine.machine import Machine
 
 _UNITS_OF_TIME = {" h": "phrases.hours", " min": "phrases.minutes", " s": "phrases.seconds"}
@@ -67,9 +66,9 @@ def lasting(seconds: float) -> Bilingual:
     return Bilingual(english, chinese)
 
 
-def lasting_within(run: "DryRun") -> Bilingual:
+def lasting_within(ran_s: float, time_s: Interval | None) -> Bilingual:
     """How long a run takes, with its interval; without one where a program for the card set its own speeds."""
-    return lasting(run.ran_s) if run.time_s is None else with_interval(run.time_s, 0)
+    return lasting(ran_s) if time_s is None else with_interval(time_s, 0)
 
 
 def with_interval(time_s: Interval, from_cuts: int) -> Bilingual:
