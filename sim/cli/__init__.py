@@ -28,6 +28,7 @@ _COMMANDS = {
     "draw": "sim.cli.draw",
     "example": "sim.cli.example",
     "explain": "sim.cli.explain",
+    "fit": "sim.cli.fit",
     "lsp": "sim.cli.lsp",
     "open": "sim.cli.open",
     "program": "sim.cli.program",

@@ -8,6 +8,7 @@ from controller.decode.model import DECODE
 from parser.documents import schema_text
 from sim.check.settings.read import settings_schema
 from sim.make.cam.document_model import PROGRAM
+from sim.measure.fit.model import FIT
 from sim.run.ballbar.model import BALLBAR
 from sim.run.report.drawing import COMPARE
 from sim.run.report.model import REPORT
@@ -18,7 +19,7 @@ from sim.show.findings.json import CHECK
 from sim.show.index_page.model import INDEX
 
 DOCS = Path(__file__).parents[2] / "docs"
-DOCUMENTS = (BALLBAR, CHECK, COMPARE, DECODE, EXPLAIN, INDEX, PROGRAM, REPORT, TIME)
+DOCUMENTS = (BALLBAR, CHECK, COMPARE, DECODE, EXPLAIN, FIT, INDEX, PROGRAM, REPORT, TIME)
 
 
 def pages() -> Iterator[tuple[Path, str]]:

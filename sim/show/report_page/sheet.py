@@ -144,9 +144,8 @@ def _time(run: DryRun) -> Bilingual:
     jumping_s = float(run.block_time_s[run.toolpath.is_jump].sum())
     if not jumping_s:
         return lasting_within(run.ran_s, run.time_s)
-    return bilingual(
-        "sheet.time-is", total=lasting_within(run.ran_s, run.time_s), cutting=lasting(run.ran_s - jumping_s)
-    )
+    whole = lasting_within(run.ran_s, run.time_s)
+    return bilingual("sheet.time-is", total=whole, cutting=lasting(run.ran_s - jumping_s))
 
 
 def _pieces(pieces: Pieces) -> Bilingual:

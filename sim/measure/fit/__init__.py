@@ -1,0 +1,1 @@
+"""What of a machine a measured circle tells, with intervals, and what it cannot tell; the border is `CircleFit`."""

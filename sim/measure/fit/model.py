@@ -1,0 +1,92 @@
+"""Model of ``drycut.fit/1`` (docs/fit.md), and a fit as such a document."""
+
+import json
+from typing import Annotated, Literal, Protocol, TypedDict
+
+from parser import __version__
+from parser.documents import Count, Document, Size, Text, Version, one_of
+from sim.measure.fit.circle import CircleFit, Parameter
+
+_DIGITS = 6
+
+
+class Say(Protocol):
+    """Words for people in one language: the text of a key."""
+
+    def __call__(self, key: str, /) -> str:
+        """Text of a key; KeyError where there is none."""
+
+
+class ParameterEntry(TypedDict):
+    """A parameter with its 95 % interval; without numbers, and with why, where the data do not tell it."""
+
+    name: Text
+    value: float | None
+    least: float | None
+    most: float | None
+    unit: Annotated[str, one_of("µm", "µrad", "ppm", "ms")]
+    determined: bool
+    why: str
+
+
+class LackEntry(TypedDict):
+    """Whether the residuals say that the model is not the whole truth, and how."""
+
+    found: bool
+    why: str
+
+
+class FitDocument(TypedDict):
+    """What a measured circle tells of a machine."""
+
+    schema: Literal["drycut.fit/1"]
+    drycut: Version
+    file: Text
+    places: Count
+    left_out: Count
+    directions: list[Annotated[str, one_of("ccw", "cw")]]
+    parameters: list[ParameterEntry]
+    lack_of_fit: LackEntry
+    residual_um: Size
+
+
+FIT = Document(FitDocument, "docs/fit.md")
+
+
+def document(file: str, fit: CircleFit, say: Say) -> FitDocument:
+    """A fit as plain lists, dicts, numbers and None; `say` has the texts of keys."""
+    return {
+        "schema": "drycut.fit/1",
+        "drycut": __version__,
+        "file": file,
+        "places": fit.places,
+        "left_out": fit.left_out,
+        "directions": ["ccw" if sense > 0 else "cw" for sense in fit.senses],
+        "parameters": [_entry(each, say) for each in fit.parameters],
+        "lack_of_fit": {"found": bool(fit.lack), "why": say(f"fit.lack-{fit.lack}") if fit.lack else ""},
+        "residual_um": _rounded(fit.residual_um) or 0.0,
+    }
+
+
+def document_text(file: str, fit: CircleFit, say: Say) -> str:
+    """The document as JSON."""
+    return json.dumps(document(file, fit, say), ensure_ascii=False, allow_nan=False, indent=2) + "\n"
+
+
+def _entry(parameter: Parameter, say: Say) -> ParameterEntry:
+    return {
+        "name": f"{parameter.name}_{_SUFFIXES[parameter.unit]}",
+        "value": _rounded(parameter.value),
+        "least": _rounded(parameter.least),
+        "most": _rounded(parameter.most),
+        "unit": parameter.unit,
+        "determined": parameter.is_determined,
+        "why": say(f"fit.why-{parameter.why}") if parameter.why else "",
+    }
+
+
+_SUFFIXES = {"µm": "um", "µrad": "urad", "ppm": "ppm", "ms": "ms"}
+
+
+def _rounded(value: float | None) -> float | None:
+    return None if value is None else round(value, _DIGITS) + 0.0

@@ -1,0 +1,84 @@
+"""A machine file whose circular test loses as much motion at the reversals as a measured circle says.
+
+What friction adds to backlash depends on how the table is shaken by its steps: no formula has it. So the test is run
+with the machine as it is and fitted as the measured circle was. By what the two differ its backlash is set, again and
+again until they are alike.
+"""
+
+from collections.abc import Iterator
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from sim.base.progress import Progress, silent
+from sim.measure.fit.circle import CircleFit, fit_circle
+from sim.run.ballbar.circle import circle_test, run_test
+from sim.setup.machine.machine import Machine
+
+_ALIKE_UM: Final = 0.05
+_ROUNDS: Final = 5
+_AXES: Final = ("x", "y")
+
+
+class FittedMachine(NamedTuple):
+    """A machine that loses as much motion as was measured, the keys that were set for that, and what still differs."""
+
+    machine: Machine
+    keys: tuple[str, ...]
+    off_um: float
+
+
+def fitted_machine(
+    machine: Machine, fit: CircleFit, feed_um_s: float | None, progress: Progress = silent
+) -> FittedMachine:
+    """The machine with the lost motion of a fit. SettingsError where the circle does not fit its travel.
+
+    Where friction alone loses more than was measured there is no backlash, and less friction. Of an axis of which the
+    circle does not tell it, both stay. What is set is assumed no more.
+    """
+    radius_um = float(round(next(each.value for each in fit.parameters if each.value is not None)))
+    wanted = [fit.value(f"reversal_{name}") for name in _AXES]
+    made, off = machine, [0.0, 0.0]
+    for _ in range(_ROUNDS):
+        found = _simulated(made, radius_um, feed_um_s, progress)
+        off = [_less(want, found.value(f"reversal_{name}")) for want, name in zip(wanted, _AXES, strict=True)]
+        if max(map(abs, off)) <= _ALIKE_UM:
+            break
+        made = _with_more(made, off)
+    keys = tuple(_changed(machine, made, wanted))
+    assumed = tuple(name for name in machine.assumed if name not in keys)
+    return FittedMachine(made._replace(assumed=assumed), keys, max(map(abs, off)))
+
+
+def _simulated(machine: Machine, radius_um: float, feed_um_s: float | None, progress: Progress) -> CircleFit:
+    """The fit of a circular test that is run on a machine."""
+    done = run_test(circle_test(machine, radius_um, feed_um_s), progress)
+    places = np.concatenate([turn.points_um for turn in done.turns])
+    return fit_circle(places, by_points=machine.controller.interpolation == "point-by-point")
+
+
+def _changed(machine: Machine, made: Machine, wanted: list[float | None]) -> Iterator[str]:
+    """Names of the keys that were set: the backlash of each axis that was measured, and friction that was lowered."""
+    for axis, name in enumerate(_AXES):
+        if wanted[axis] is not None:
+            yield f"backlash_{name}_um"
+        if made.table.friction_n[axis] != machine.table.friction_n[axis]:
+            yield f"friction_{name}_n"
+
+
+def _less(wanted: float | None, found: float | None) -> float:
+    return 0.0 if wanted is None or found is None else wanted - found
+
+
+def _with_more(machine: Machine, more_um: list[float]) -> Machine:
+    """The machine with so much more lost motion: of backlash, or less friction where that is gone."""
+    table = machine.table
+    backlash, friction = list(table.backlash_um), list(table.friction_n)
+    for axis, more in enumerate(more_um):
+        backlash[axis] += more
+        if backlash[axis] < 0.0:
+            friction[axis] = max(friction[axis] + 0.5 * backlash[axis] * table.drive_stiffness_n_um, 0.0)
+            backlash[axis] = 0.0
+    return machine._replace(
+        table=table._replace(backlash_um=(backlash[0], backlash[1]), friction_n=(friction[0], friction[1]))
+    )

@@ -1,0 +1,36 @@
+"""What a measured circle tells on the terminal: each parameter with its interval, or why there is none."""
+
+from parser.findings.catalogue import Language
+from sim.measure.fit.circle import CircleFit, Parameter
+from sim.show.terminal.layout import paragraph, show, table
+from sim.show.texts import Words
+
+
+def print_fit(done: CircleFit, language: Language, *, is_known: bool) -> None:
+    """Print a fit to stdout; `is_known` tells that its machine was named."""
+    tell = Words(language)
+    rows = table(
+        tell("fit.title"), tuple(tell(f"fit.head-{name}") for name in ("parameter", "value", "interval")), (1,)
+    )
+    for parameter in done.parameters:
+        rows.add_row(tell(f"fit.name-{parameter.name}"), *_numbers(parameter, tell))
+    show(rows)
+    turns = tell("fit.both" if len(done.senses) > 1 else "fit.ccw" if done.senses[0] > 0 else "fit.cw")
+    values = {"places": f"{done.places:,}", "turns": turns, "rest": f"{done.residual_um:.3g}"}
+    paragraph(tell("fit.of", **values))
+    if done.left_out:
+        paragraph(tell("fit.left-out", number=done.left_out), "cyan")
+    if not is_known:
+        paragraph(tell("fit.unknown-machine"), "cyan")
+    if done.lack:
+        paragraph(tell("fit.lack", why=tell(f"fit.lack-{done.lack}")), "yellow")
+
+
+def _numbers(parameter: Parameter, tell: Words) -> tuple[str, str]:
+    """The value, and its interval or why it is not determined."""
+    value, least, most = parameter.value, parameter.least, parameter.most
+    if value is None or least is None or most is None:
+        return "–", tell(f"fit.why-{parameter.why}")
+    by = 0.5 * (most - least)
+    digits = 0 if by >= 20.0 else 1 if by >= 2.0 else 2 if by >= 0.2 else 3
+    return f"{round(value, digits) + 0.0:,.{digits}f} {parameter.unit}".replace("-", "−"), f"± {by:.{digits}f}"
