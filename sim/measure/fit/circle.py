@@ -7,10 +7,10 @@ To the first order in deviation over radius a machine that runs a circle of radi
         − ½Bx sgn(vx) cos θ − ½By sgn(vy) sin θ,    vx = −s sin θ, vy = s cos θ
 
 from the middle: β out of square, e the scale of an axis, τ the time by which it lags, so that it stands v τ back
-against its motion, B what it loses at a reversal, backlash and twice friction over stiffness together (Y. Kakino et al.,
-Accuracy Inspection of NC Machine Tools by Double Ball Bar Method, 1993; ISO 230-4 for the test). All are fitted at once
-by least squares, rows far off left out, and the intervals come from the residuals: quantiles of Student's t times the
-standard errors.
+against its motion, B what it loses at a reversal, backlash and twice friction over stiffness together (Y. Kakino et
+al., Accuracy Inspection of NC Machine Tools by Double Ball Bar Method, 1993; ISO 230-4 for the test). All are fitted
+at once by least squares, rows far off left out, and the intervals come from the residuals: quantiles of Student's t
+times the standard errors.
 
 What one circle cannot tell is said and gets no number: backlash from friction, the mean scale from the radius, and with
 one direction alone squareness from lag. A fit that is not the whole truth is told by two tests of its residuals: an
