@@ -13,7 +13,7 @@ from sim.run.findings import outcome
 from sim.run.report.model import ReportDocument
 from sim.show.report_page.tables import reached
 from sim.show.texts import bilingual
-from sim.show.texts.phrases import catalogued, lasting, lasting_within, listed, machine_name, numbered, same
+from sim.show.texts.phrases import by_no_cut, catalogued, lasting, listed, machine_name, numbered, same
 
 _NONE = same("")
 
@@ -120,7 +120,8 @@ def _size(run: DryRun, report: ReportDocument) -> Iterator[Figure]:
             bilingual("report.card-time"), "time_s.total", total, lasting(total), note=bilingual("report.card-speeds")
         )
     else:
-        yield Figure(bilingual("report.time"), "time_s.total", total, lasting_within(run.ran_s, run.time_s), note=work)
+        note = bilingual("report.time-note", unknown=by_no_cut(), work=work)
+        yield Figure(bilingual("report.time"), "time_s.total", total, lasting(total), note=note)
     jumps, arcs = int(run.toolpath.is_jump.sum()), int(run.toolpath.is_arc.sum())
     kinds = numbered({"line": len(run.toolpath) - arcs - jumps, "arc": arcs, "jump": jumps})
     yield _figure("blocks", report, "summary.blocks")._replace(note=kinds)

@@ -71,11 +71,16 @@ def lasting_within(ran_s: float, time_s: Interval | None) -> Bilingual:
     return lasting(ran_s) if time_s is None else with_interval(time_s, 0)
 
 
+def by_no_cut() -> Bilingual:
+    """How sure a time is of which no cut of the machine is known."""
+    return bilingual("time.unknown", share=round(100.0 * UNKNOWN))
+
+
 def with_interval(time_s: Interval, from_cuts: int) -> Bilingual:
     """A time with its interval, such as ``3 h 12 min (2 h 40 min … 4 h 5 min, 90 %, from 14 cuts of this shop)``."""
     least, middle, most = map(lasting, time_s[:3])
     if not from_cuts:
-        return bilingual("time.without-cuts", middle=middle, share=round(100.0 * UNKNOWN))
+        return bilingual("time.without-cuts", middle=middle, unknown=by_no_cut())
     cuts = bilingual("time.one-cut" if from_cuts == 1 else "time.some-cuts", number=from_cuts)
     level = round(100.0 * time_s.level)
     return bilingual("time.with-interval", middle=middle, least=least, most=most, level=level, cuts=cuts)
