@@ -29,6 +29,7 @@ from sim.make.convert import Proof as Written
 from sim.measure.compare.compare import compare_program
 from sim.measure.compare.findings import by_block, by_entity, compare_cut, drawing_findings
 from sim.measure.compare.result import Comparison, FitRequest
+from sim.measure.compare.waste import with_waste
 from sim.run.dryrun import DryRun
 from sim.run.running import dry_run
 from sim.setup.part import DrawingTarget
@@ -279,7 +280,9 @@ def _as_cut(given: ToProve, target: Target, run: DryRun, how: AsRun) -> tuple[Co
     faults = [*side_faults(given.plan, target, run.toolpath)] if how.has_offset else []
     if run.remains is None or run.ended is not None:  # what an early end leaves uncut is no fault of its own
         return None, _Found(tuple(faults))
-    faults += fall_faults(given.plan, target, run.remains.pieces, how.scenario.wire.reach_um)
+    reach_um = how.scenario.wire.reach_um
+    pieces = with_waste(run.remains.pieces, target.shapes, 2.0 * reach_um)
+    faults += fall_faults(given.plan, target, pieces, reach_um)
     if not how.is_one_edge:
         return None, _Found(tuple(faults))
     found = compare_cut(run.program, run.remains, target.drawing, _held_to(given, target))

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from parser.dialect.reader import at_block
-from parser.drawing.model import Drawing
+from parser.drawing.model import Drawing, running
 from parser.findings.catalogue import Remark
 from parser.findings.errors import SettingsError
 from parser.findings.findings import Finding
@@ -19,11 +19,14 @@ from parser.program import Program
 from parser.text.encoding import printable
 from parser.toolpath import Point
 from parser.units import mm
+from sim.cut.pieces.pieces import Pieces
 from sim.cut.remains import Remains
 from sim.measure.compare.compare import compare, compare_program
 from sim.measure.compare.nearest import indexed, nearest
 from sim.measure.compare.result import Comparison, CornerPlace, FitRequest, WorstPlace
-from sim.measure.compare.rings import edge_as_cut
+from sim.measure.compare.rings import edge_as_cut, polygon
+from sim.measure.compare.starts import placed
+from sim.measure.compare.waste import with_waste
 from sim.setup.part import DrawingTarget
 
 _MOST_PLACES = 10
@@ -143,12 +146,24 @@ def compare_cut(program: Program, remains: Remains, drawing: Drawing, target: Dr
     found = compare(edge, drawing, fit_request)
     if found.passes:
         return found
+    of_parts = edge_as_cut(program.toolpath, remains.kerf, _with_waste(remains, drawing, found))
+    if of_parts is not None and len(of_parts.curves) < len(edge.curves):
+        found = compare(of_parts, drawing, fit_request)
+        if found.passes:
+            return found
     try:
         exact = compare_program(program.toolpath, remains.kerf.offset_um, drawing, fit_request)
     except SettingsError:  # no edge of its own
         return found
     known = {named.name for named in found.names}
     return replace(found, names=(*found.names, *(named for named in exact.names if named.name not in known)))
+
+
+def _with_waste(remains: Remains, drawing: Drawing, found: Comparison) -> Pieces:
+    """The pieces, with what lies between the parts of a drawing as waste."""
+    rings = [running(drawing.curves, loop.row, loop.backwards) for loop in drawing.loops if loop.closed]
+    drawn = [polygon(placed(ring, found.placement)) for ring in rings]
+    return with_waste(remains.pieces, drawn, 2.0 * remains.kerf.offset_um)
 
 
 def drawing_findings(program: Program, found: Comparison | None) -> Iterator[Finding]:

@@ -25,7 +25,10 @@ from sim.make.cam.model import CannotCutError
 from sim.make.wanted import Wanted
 from sim.measure.compare.compare import compare_program
 from sim.measure.compare.result import FitRequest
+from sim.run.dryrun import DryRun
+from sim.run.running import dry_run
 from sim.setup.making import Making
+from sim.setup.part import DrawingTarget
 
 REACH_UM, KERF_MM = 100.0, 0.2
 TO_3B = Wanted("3b")
@@ -142,7 +145,8 @@ def test_a_part_amid_others_is_cut_before_they_set_it_free(tmp_path: Path, corne
     assert sorted(freed) == list(range(1, 10))  # each by its own cut
 
 
-@pytest.mark.parametrize("seed", [*range(4), *(pytest.param(seed, marks=pytest.mark.deep) for seed in range(4, 100))])
+@pytest.mark.alike(4)
+@pytest.mark.parametrize("seed", range(100))
 def test_parts_of_a_rectangle_cut_in_two_again_and_again_are_as_they_are_drawn(tmp_path: Path, seed: int) -> None:
     draws = random.Random(f"layout:{seed}")
     boxes = cut_in_two(Box(0.0, 0.0, draws.uniform(9.0, 16.0), draws.uniform(7.0, 12.0)), 3.0, draws)
@@ -184,18 +188,50 @@ def test_a_hole_moves_with_its_part_and_a_thread_point_too(tmp_path: Path) -> No
     assert tuple(hole.thread.place_um) == (20_400.0, 2_500.0)
 
 
+def rounded(space: Modelspace, x: float, y: float) -> None:
+    """A part of 10 × 8 mm with corners of R 2 mm."""
+    corners = [(2, 0, 0), (8, 0, 0.41421356), (10, 2, 0), (10, 6, 0.41421356), (8, 8, 0), (2, 8, 0.41421356)]
+    corners += [(0, 6, 0), (0, 2, 0.41421356)]
+    space.add_lwpolyline([(x + at, y + of, bulge) for at, of, bulge in corners], format="xyb", close=True)
+
+
 def test_parts_with_round_corners_that_fail_in_the_kerf_are_cut_all_round(tmp_path: Path) -> None:
     """The wire runs tangent into the kerf of the other one: the part would fall before the last of its edge is cut."""
 
-    def draw(space: Modelspace) -> None:
-        for x in (0.0, 10.2):
-            corners = [(2, 0, 0), (8, 0, 0.41421356), (10, 2, 0), (10, 6, 0.41421356), (8, 8, 0), (2, 8, 0.41421356)]
-            corners += [(0, 6, 0), (0, 2, 0.41421356)]
-            space.add_lwpolyline([(x + at, y, bulge) for at, y, bulge in corners], format="xyb", close=True)
-
-    done = proved(drawn(tmp_path, draw))
+    path = drawn(tmp_path, lambda space: [rounded(space, x, 0.0) for x in (0.0, 10.2)])
+    done = proved(path)
     assert {cut.thread.by for cut in done.plan.cuts} == {"chosen"}
     assert [note.name for note in done.plan.notes] == ["cut-round"]
+
+
+def held_against(path: Path, program: Program) -> DryRun:
+    """A run whose cut is held against a drawing."""
+    return dry_run(program, plain_scenario(kerf=True, drawing=DrawingTarget(path, fit=False)), measured=False)
+
+
+@pytest.mark.parametrize("making", [Making(), COMMON])
+def test_waste_between_round_corners_is_no_part(tmp_path: Path, making: Making) -> None:
+    path = drawn(tmp_path, lambda space: [rounded(space, x, y) for x in (0.0, 10.2) for y in (0.0, 8.2)])
+    done = proved(path, making)
+    assert len(done.plan.cuts) == 4
+    waste = [piece for piece in left_of(done.program) if 1e3 < piece.area < 10e6]
+    assert len(waste) == 1  # the star amid them
+    assert not [finding for finding in held_against(path, done.program).findings if finding.code.startswith("3B6")]
+
+
+def test_waste_in_a_pinwheel_is_no_part(tmp_path: Path) -> None:
+    boxes = [Box(0, 0, 8, 4), Box(8, 0, 4, 8), Box(4, 8, 8, 4), Box(0, 4, 4, 8)]
+    done = made(tmp_path, boxes)
+    are_as_drawn(done.program, [*boxes, Box(4, 4, 3.8, 3.8)])
+
+
+def test_a_part_that_the_drawing_does_not_have_is_no_waste(tmp_path: Path) -> None:
+    for apart in (KERF_MM, 1.0):
+        boxes = grid(2, 1, apart=apart)
+        (tmp_path / "both").mkdir(exist_ok=True)
+        done = made(tmp_path / "both", boxes, Making())
+        path = drawn(tmp_path, boxes[0].draw)
+        assert "3B601" in {finding.code for finding in held_against(path, done.program).findings}
 
 
 def test_parts_without_an_edge_in_common_are_cut_as_ever(tmp_path: Path) -> None:
