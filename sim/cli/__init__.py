@@ -17,6 +17,7 @@ from sim.show.terminal.printer import say, write
 from sim.show.terminal.streams import OutputError, prepare_streams
 
 _COMMANDS = {
+    "accept": "sim.cli.accept",
     "ballbar": "sim.cli.ballbar",
     "card": "sim.cli.card",
     "check": "sim.cli.check.command",

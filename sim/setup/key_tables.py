@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any, Final, NamedTuple
 
 from parser.findings.catalogue import Bilingual, Language
-from sim.setup import scenario, shop
+from sim.setup import limits, scenario, shop
 from sim.setup.expectations import EXPECT
 from sim.setup.key_words import setting_text, words, words_of
 from sim.setup.machine import machine
@@ -57,6 +57,11 @@ def shop_schema() -> dict[str, Any]:
     return _file_schema("a shop file of drycut (docs/time.md)", Section("shop", (), form="top"), shop.SECTIONS)
 
 
+def limits_schema() -> dict[str, Any]:
+    """JSON schema of a file of limits."""
+    return _file_schema("limits of a test piece for drycut (docs/accept.md)", limits.PIECE, [limits.FEATURE])
+
+
 _MAY_BE_LEFT_OUT: Final = ("arm",)
 
 
@@ -90,6 +95,8 @@ DOCUMENTS: tuple[tuple[Language, Path], ...] = (
     ("zh", Path("docs/scenarios.zh.md")),
     ("en", Path("docs/time.md")),
     ("zh", Path("docs/time.zh.md")),
+    ("en", Path("docs/accept.md")),
+    ("zh", Path("docs/accept.zh.md")),
 )
 _TABLE = re.compile(r"(<!-- keys: ([\w ]+); .*? -->\n).*?(\n<!-- end of keys -->)", re.DOTALL)
 
@@ -116,6 +123,7 @@ def _tables(language: Language) -> dict[str, str]:
         "quiz": _table((_row(QUIZ, key) for key in QUIZ.keys), language),
         "machine": _table((_row(*of) for of in of_machine if _is_needed(*of)), language, left_out=("default",)),
         "machine that may be left out": _table((_row(*of) for of in of_machine if not _is_needed(*of)), language),
+        "limits": _table((_row(section, key) for section in limits.SECTIONS for key in section.keys), language),
         "shop": _table((_row(section, key) for section in shop.SECTIONS for key in section.keys), language),
     }
 

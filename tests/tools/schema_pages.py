@@ -8,18 +8,19 @@ from controller.decode.model import DECODE
 from parser.documents import schema_text
 from sim.check.settings.read import settings_schema
 from sim.make.cam.document_model import PROGRAM
+from sim.measure.accept.model import ACCEPT
 from sim.measure.fit.model import FIT
 from sim.run.ballbar.model import BALLBAR
 from sim.run.report.drawing import COMPARE
 from sim.run.report.model import REPORT
 from sim.run.times.model import TIME
-from sim.setup.key_tables import machine_schema, scenario_schema, shop_schema
+from sim.setup.key_tables import limits_schema, machine_schema, scenario_schema, shop_schema
 from sim.show.findings.explained import EXPLAIN
 from sim.show.findings.json import CHECK
 from sim.show.index_page.model import INDEX
 
 DOCS = Path(__file__).parents[2] / "docs"
-DOCUMENTS = (BALLBAR, CHECK, COMPARE, DECODE, EXPLAIN, FIT, INDEX, PROGRAM, REPORT, TIME)
+DOCUMENTS = (ACCEPT, BALLBAR, CHECK, COMPARE, DECODE, EXPLAIN, FIT, INDEX, PROGRAM, REPORT, TIME)
 
 
 def pages() -> Iterator[tuple[Path, str]]:
@@ -29,6 +30,7 @@ def pages() -> Iterator[tuple[Path, str]]:
         "machine": machine_schema(),
         "settings": settings_schema(),
         "shop": shop_schema(),
+        "limits": limits_schema(),
     }
     for name, schema in written.items():
         yield DOCS / f"{name}.schema.json", json.dumps(schema, indent=2, ensure_ascii=False) + "\n"

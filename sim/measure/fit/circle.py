@@ -256,7 +256,7 @@ def _parameters(
     solved = np.linalg.lstsq(columns, off[is_used], rcond=None)[0]
     variance = float(((off[is_used] - columns @ solved) ** 2).sum()) / free
     errors = np.sqrt(variance * np.diag(np.linalg.pinv(columns.T @ columns)))
-    reach = _student(0.5 * (1.0 + LEVEL), free) * errors
+    reach = student(0.5 * (1.0 + LEVEL), free) * errors
     shared = _explained(columns)
     (x, y), radius = circle[0].tolist(), circle[1]
     base = {"radius_ccw": radius, "radius_cw": radius, "center_x": x, "center_y": y}
@@ -304,7 +304,7 @@ def _explained(columns: Floats) -> Floats:
     return shares
 
 
-def _student(share: float, free: int) -> float:
+def student(share: float, free: int) -> float:
     """Quantile of Student's t, by its expansion about the normal one (Abramowitz and Stegun 26.7.5)."""
     z = NormalDist().inv_cdf(share)
     first = (z**3 + z) / 4.0

@@ -1,0 +1,61 @@
+"""Sizes of measured features by least squares: circles, and pairs of parallel faces, with their uncertainties."""
+
+import math
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from parser.geometry.curves import Floats
+
+LEAST_PLACES: Final = {"circle": 5, "width": 5}
+"""Of a feature: one more than what is solved for, and one besides."""
+
+
+class Size(NamedTuple):
+    """A size µm with its standard error, and how far the places lie off the form, from the highest to the lowest."""
+
+    size_um: float
+    error_um: float
+    form_um: float
+    free: int
+
+
+def circle_size(place_um: Floats) -> Size:
+    """The diameter of the circle through places (n, 2), of least squared distances (Gauss and Newton, from Kåsa's)."""
+    middle = place_um.mean(axis=0)
+    x, y = (place_um - middle).T
+    columns = np.column_stack([x, y, np.ones(len(x))])
+    a, b, c = np.linalg.lstsq(columns, x**2 + y**2, rcond=None)[0].tolist()
+    center, radius = np.array([0.5 * a, 0.5 * b]), math.sqrt(max(c + 0.25 * (a * a + b * b), 0.0))
+    for _ in range(5):
+        out = np.column_stack([x, y]) - center
+        away = np.hypot(out[:, 0], out[:, 1])
+        columns = np.column_stack([out / away[:, None], np.ones(len(x))])
+        step = np.linalg.lstsq(columns, away - radius, rcond=None)[0]
+        center, radius = center + step[:2], radius + float(step[2])
+    off = np.hypot(*(np.column_stack([x, y]) - center).T) - radius
+    error, free = _error(columns, off, 2)
+    return Size(2.0 * radius, 2.0 * error, float(np.ptp(off)), free)
+
+
+def width_size(place_um: Floats, across_rad: float) -> Size | None:
+    """The distance of two parallel faces across a direction; None where either has fewer than two places."""
+    across = place_um @ np.array([math.cos(across_rad), math.sin(across_rad)])
+    along = place_um @ np.array([-math.sin(across_rad), math.cos(across_rad)])
+    far = across > 0.5 * (across.min() + across.max())
+    if min(int(far.sum()), int((~far).sum())) < 2:
+        return None
+    columns = np.column_stack([~far, far, along - along.mean()]).astype(np.float64)
+    near_um, far_um, slope = np.linalg.lstsq(columns, across, rcond=None)[0].tolist()
+    off = across - columns @ np.array([near_um, far_um, slope])
+    tilt = math.hypot(1.0, slope)
+    error, free = _error(np.column_stack([columns[:, 0] + columns[:, 1], columns[:, 1], columns[:, 2]]), off, 1)
+    form = max(float(np.ptp(off[side])) for side in (far, ~far)) / tilt
+    return Size((far_um - near_um) / tilt, error / tilt, form, free)
+
+
+def _error(columns: Floats, off: Floats, at: int) -> tuple[float, int]:
+    """The standard error of what a column stands for, and degrees of freedom."""
+    free = len(off) - columns.shape[1]
+    variance = float((off**2).sum()) / free
+    return math.sqrt(variance * float(np.linalg.pinv(columns.T @ columns)[at, at])), free

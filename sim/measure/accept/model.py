@@ -1,0 +1,102 @@
+"""Model of ``drycut.accept/1`` (docs/accept.md), and a judgement as such a document."""
+
+import json
+from typing import Annotated, Literal, TypedDict
+
+from parser import __version__
+from parser.documents import Document, Size, Text, Version, one_of
+from sim.measure.accept.judge import Judged, Judgement
+from sim.measure.fit.model import Say
+
+_DIGITS = 6
+VerdictName = Annotated[str, one_of("pass", "to-check", "fail")]
+
+
+class CharacteristicEntry(TypedDict):
+    """A size or a form of a feature at a height, null for all together."""
+
+    feature: Text
+    z_mm: float | None
+    kind: Annotated[str, one_of("circle", "width")]
+    what: Annotated[str, one_of("size", "form")]
+    value_um: float
+    nominal_um: Size
+    deviation_um: float
+    uncertainty_um: Size
+    lower_um: float
+    upper_um: float
+    verdict: VerdictName
+
+
+class CauseEntry(TypedDict):
+    """What would explain deviations, with its 95 % interval."""
+
+    name: Annotated[str, one_of("offset", "x-less-y", "barrel")]
+    value_um: float
+    least_um: float
+    most_um: float
+    text: Text
+
+
+class AcceptDocument(TypedDict):
+    """A measured piece by its limits."""
+
+    schema: Literal["drycut.accept/1"]
+    drycut: Version
+    file: Text
+    verdict: Annotated[str, one_of("pass", "to-check", "incomplete", "fail")]
+    features: list[CharacteristicEntry]
+    missing: list[Text]
+    without_limits: list[Text]
+    causes: list[CauseEntry]
+
+
+ACCEPT = Document(AcceptDocument, "docs/accept.md")
+
+
+def document(file: str, of: Judgement, say: Say) -> AcceptDocument:
+    """A judgement as plain lists, dicts, numbers and None; `say` has the texts of keys."""
+    return {
+        "schema": "drycut.accept/1",
+        "drycut": __version__,
+        "file": file,
+        "verdict": of.verdict,
+        "features": [*map(_entry, of.judged)],
+        "missing": [*of.missing],
+        "without_limits": [*of.without_limits],
+        "causes": [
+            {
+                "name": cause.name,
+                "value_um": _rounded(cause.value_um),
+                "least_um": _rounded(cause.value_um - cause.by_um),
+                "most_um": _rounded(cause.value_um + cause.by_um),
+                "text": say(f"accept.cause-{cause.name}"),
+            }
+            for cause in of.causes
+        ],
+    }
+
+
+def document_text(file: str, of: Judgement, say: Say) -> str:
+    """The document as JSON."""
+    return json.dumps(document(file, of, say), ensure_ascii=False, allow_nan=False, indent=2) + "\n"
+
+
+def _entry(each: Judged) -> CharacteristicEntry:
+    return {
+        "feature": each.feature.name,
+        "z_mm": None if each.z_mm is None else _rounded(each.z_mm),
+        "kind": each.feature.kind,
+        "what": each.what,
+        "value_um": _rounded(each.value_um),
+        "nominal_um": _rounded(each.nominal_um),
+        "deviation_um": _rounded(each.deviation_um),
+        "uncertainty_um": _rounded(each.uncertainty_um),
+        "lower_um": _rounded(each.lower_um),
+        "upper_um": _rounded(each.upper_um),
+        "verdict": each.verdict,
+    }
+
+
+def _rounded(value: float) -> float:
+    return round(value, _DIGITS) + 0.0
