@@ -63,6 +63,7 @@ def shop(tmp_path: Path) -> Path:
         (0, ("decode", "part.iso", "--offset", "D1=0.1mm")),
         (0, ("convert", "part.3b", "-o", "x.iso")),
         (0, ("example", "keyhole", "-o", "x")),
+        (0, ("time", "part.3b", "--json")),
         (0, ("dialect", "test", "part.iso", "--dialect", "fanuc")),
         (0, ("draw", "part.3b", "-o", "x.svg", "--lang", "zh", "--theme", "dark")),
     ],
