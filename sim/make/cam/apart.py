@@ -20,14 +20,15 @@ from shapely.affinity import translate
 from parser.drawing.loops.once import over
 from parser.drawing.model import BESIDE_UM, Drawing
 from parser.findings.catalogue import Remark
-from parser.geometry.along import directions, outline
+from parser.geometry.along import directions
 from parser.geometry.arrangement import merged
-from parser.geometry.curves import Bools, Curves, Floats, Ints
+from parser.geometry.curves import Bools, Floats, Ints
 from parser.geometry.near import near_pairs
 from parser.units import mm
 from sim.make.cam.cells import with_cells
 from sim.make.cam.contours import Contours, contours_of
 from sim.make.cam.frames import Boxes, frames
+from sim.measure.compare.rings import polygon
 
 LEAST_EDGE_UM: Final = 500.0
 """Of a shorter edge in common nothing is saved."""
@@ -65,7 +66,7 @@ def moved_apart(drawing: Drawing, kerf_um: float) -> Drawing:
     if len(closed) < 2:
         return drawing
     contours = contours_of(drawing, closed)
-    shapes = np.array([_shape(contours.contour(at)) for at in range(len(closed))])
+    shapes = np.array([polygon(contours.contour(at)) for at in range(len(closed))])
     low, high = shapely.bounds(shapes)[:, :2], shapely.bounds(shapes)[:, 2:]
     is_frame = frames(drawing, contours, Boxes(shapely.area(shapes), low, high))
     part = _parts(shapes, is_frame)
@@ -76,10 +77,6 @@ def moved_apart(drawing: Drawing, kerf_um: float) -> Drawing:
     if not by.any():
         return drawing
     return _moved(drawing, shapes, by, part, kerf_um)
-
-
-def _shape(contour: Curves) -> shapely.Polygon:
-    return shapely.Polygon(outline(contour)) if len(outline(contour)) > 2 else shapely.Polygon()
 
 
 def _parts(shapes: Shapes, is_frame: Bools) -> Ints:
@@ -107,8 +104,8 @@ def _in_common(contours: Contours, part: Ints) -> _Edges:
     ways = directions(curves)
     against = (ways.leaving[found.row] * ways.leaving[found.by]).sum(axis=1) < 0.0
     is_line = ~curves.is_arc[found.row]
-    found_long = found.last_um - found.first_um >= LEAST_EDGE_UM
-    at = np.flatnonzero(found_long & (against | ~is_line))
+    is_long = found.last_um - found.first_um >= LEAST_EDGE_UM
+    at = np.flatnonzero(is_long & (against | ~is_line))
     along = ways.leaving[found.row[at]]
     out = np.column_stack([along[:, 1], -along[:, 0]])
     return _Edges(loop[found.row[at]], loop[found.by[at]], out, is_line[at])
@@ -182,6 +179,8 @@ def _along_axes(edges: _Edges, shapes: Shapes, kerf_um: float) -> Floats:
 
     What comes to lie nearer than a kerf by that, such as parts that touch in a corner, pushes each other, too.
     """
+    if not len(edges.this):
+        return np.zeros((len(shapes), 2))
     number, axis = len(shapes), np.abs(edges.out).argmax(axis=1)
     ahead = edges.out[np.arange(len(axis)), axis] > 0.0
     pushes = _Pushes(np.where(ahead, edges.this, edges.other), np.where(ahead, edges.other, edges.this), axis)

@@ -4,6 +4,7 @@ What is left of the sheet is worked out here by shapely: the path of the written
 of a plate. Layouts are made by cutting a rectangle in two again and again, so that the size of each part is known.
 """
 
+import math
 import random
 from collections.abc import Sequence
 from pathlib import Path
@@ -186,6 +187,21 @@ def test_a_hole_moves_with_its_part_and_a_thread_point_too(tmp_path: Path) -> No
     assert hole.figure.kind == "hole"
     assert hole.thread.by == "marked"
     assert tuple(hole.thread.place_um) == (20_400.0, 2_500.0)
+
+
+def test_hexagons_are_moved_apart_across_slanting_edges(tmp_path: Path) -> None:
+    def comb(space: Modelspace) -> None:
+        for row in range(2):
+            for column in range(2):
+                x, y = math.sqrt(3.0) * 4.0 * (column + 0.5 * row), 6.0 * row
+                turns = [math.pi / 6.0 + at * math.pi / 3.0 for at in range(6)]
+                space.add_lwpolyline([(x + 4 * math.cos(turn), y + 4 * math.sin(turn)) for turn in turns], close=True)
+
+    done = proved(drawn(tmp_path, comb))
+    assert [cut.thread.by for cut in done.plan.cuts] == ["chosen", "kerf", "kerf", "kerf"]
+    pieces = [piece for piece in left_of(done.program) if piece.area > 1e3]
+    assert len(pieces) == 4
+    assert all(piece.area / 1e6 == pytest.approx(1.5 * math.sqrt(3.0) * 16.0, abs=0.05) for piece in pieces)
 
 
 def rounded(space: Modelspace, x: float, y: float) -> None:
