@@ -122,7 +122,7 @@ def judged(piece: dict[str, Places], limits: Limits) -> Judgement:
     return Judgement(tuple(found), tuple(missing), others, tuple(_causes(found)))
 
 
-def _sizes(feature: FeatureLimits, places: Places) -> "list[tuple[float | None, Size]]":
+def _sizes(feature: FeatureLimits, places: Places) -> list[tuple[float | None, Size]]:
     """Sizes by height; of a feature with too few places at some height, of all together."""
     heights = np.unique(np.round(places.z_mm[~np.isnan(places.z_mm)], 3)).tolist()
     groups = [(z, places.place_um[np.abs(places.z_mm - z) < 5e-4]) for z in heights] if len(heights) > 1 else []
@@ -139,7 +139,7 @@ def _sizes(feature: FeatureLimits, places: Places) -> "list[tuple[float | None, 
     return found
 
 
-def _judge(feature: FeatureLimits, z_mm: float | None, size: Size, uncertainty_um: float) -> "list[Judged]":
+def _judge(feature: FeatureLimits, z_mm: float | None, size: Size, uncertainty_um: float) -> list[Judged]:
     by_um = math.hypot(uncertainty_um, student(_SHARE, size.free) * size.error_um)
     nominal = UM_PER_MM * feature.nominal_mm
     off = size.size_um - nominal
@@ -161,7 +161,7 @@ def verdict_of(deviation_um: float, by_um: float, lower_um: float, upper_um: flo
     return "fail" if deviation_um < lower_um - by_um or deviation_um > upper_um + by_um else "to-check"
 
 
-def _causes(found: Sequence[Judged]) -> "list[Cause]":
+def _causes(found: Sequence[Judged]) -> list[Cause]:
     """What would explain the deviations of sizes, where it is more than its interval.
 
     Sizes of one instrument may all be off by its uncertainty: no mean of them is known better.
@@ -191,7 +191,7 @@ def _causes(found: Sequence[Judged]) -> "list[Cause]":
     return [cause for cause in causes if abs(cause.value_um) > cause.by_um]
 
 
-def _barrels(sizes: "list[Judged]") -> "list[tuple[float, float]]":
+def _barrels(sizes: list[Judged]) -> list[tuple[float, float]]:
     """How much larger each feature is in the middle of its heights than at both ends, and how sure that is."""
     found = list[tuple[float, float]]()
     for name in dict.fromkeys(each.feature.name for each in sizes):

@@ -24,8 +24,8 @@ def with_waste(pieces: Pieces, drawn: Sequence[shapely.Polygon], kerf_um: float)
     outlines = np.array([pieces.freed[index].outline_um for index in at], dtype=np.object_)
     shapes = np.array([shape for shape in drawn if not shape.is_empty], dtype=np.object_)
     inner, _ = shapely.STRtree(shapes).query(shapely.point_on_surface(outlines), predicate="within")
-    within = np.bincount(inner, minlength=len(at)) % 2 == 1
-    waste = [index for index, is_part in zip(at, within.tolist(), strict=True) if not is_part]
+    around = np.bincount(inner, minlength=len(at))
+    waste = [index for index, contours in zip(at, around.tolist(), strict=True) if not contours]
     if not waste or len(waste) == len(at):
         return pieces
     edges = shapely.union_all(shapely.boundary(shapes)).buffer(kerf_um + _SPARE_UM)

@@ -276,7 +276,7 @@ def _parameters(
     return (*found, *_not_told(found, bool(alone), feed_um_s))
 
 
-def _not_told(found: "list[Parameter]", one_direction: bool, feed_um_s: float | None) -> "tuple[Parameter, ...]":
+def _not_told(found: list[Parameter], one_direction: bool, feed_um_s: float | None) -> tuple[Parameter, ...]:
     """What follows from the others, and what one circle cannot tell."""
     lag = next((each for each in found if each.name == "lag_difference"), None)
     if lag is None or lag.value is None or feed_um_s is None or lag.least is None or lag.most is None:

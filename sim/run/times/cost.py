@@ -40,7 +40,7 @@ def cost_of(least_min: float, middle_min: float, most_min: float, rates: Rates, 
     return Cost(rates.currency, middle, _sum(least), _sum(most))
 
 
-def _items(minutes: float, rates: Rates, programs: int) -> "list[Item]":
+def _items(minutes: float, rates: Rates, programs: int) -> list[Item]:
     """The items that cost something."""
     hours = minutes / 60.0
     amounts = {

@@ -98,7 +98,7 @@ def predicted_way(length_mm: float, passes: int, scenario: Scenario) -> float:
     return passes * from_mm(length_mm) / feed_um_s / 60.0
 
 
-def _terms(cut_min: float, jump_min: float, counts: dict[str, int], scenario: Scenario, shop: Shop) -> "list[Term]":
+def _terms(cut_min: float, jump_min: float, counts: dict[str, int], scenario: Scenario, shop: Shop) -> list[Term]:
     """The terms of a time; those of which nothing is known, and that take nothing, are left out."""
     times = shop.times
     is_assumed = scenario.machine_by_default or CUTTING.keys[0].name in scenario.machine.assumed
