@@ -12,6 +12,7 @@ from sim.cli.spoken.values import FilePath, offer_machines
 
 if TYPE_CHECKING:
     from sim.measure.fit.circle import CircleFit
+    from sim.setup.machine.machine import Machine
 
 _USUAL = "dk7740"
 
@@ -43,40 +44,47 @@ def fit(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     from sim.measure.fit.rows import read_circle
     from sim.setup.machine.machine import load_machine
     from sim.show.terminal.fit import print_fit
+    from sim.show.terminal.layout import paragraph
     from sim.show.terminal.printer import say, write
 
     if output is not None and output.suffix.lower() != ".toml":
         raise click.BadParameter(Message("machine-is-toml", output=output), param_hint="-o")
     if feed is not None and feed <= 0.0:
         raise click.BadParameter(Message("not-above-0"), param_hint="--feed")
-    own = None if machine is None else load_machine(machine)
-    by_points = own is not None and own.controller.interpolation == "point-by-point"
+    # A machine file begins somewhere, and its own circle is fitted as the measured one was.
+    base = None if machine is None and output is None else load_machine(machine or _USUAL)
+    by_points = base is not None and base.controller.interpolation == "point-by-point"
     done = fit_circle(read_circle(file, back), feed, by_points=by_points)
-    if output is not None:
-        _write(done, machine or _USUAL, feed, output)
+    off_um = 0.0 if base is None or output is None else _write(done, base, feed, output)
     if as_json:
         write(document_text(printable(str(file)), done, words()), "json")
     else:
-        print_fit(done, spoken(), is_known=own is not None)
+        print_fit(done, spoken(), "" if machine is not None else "unknown" if base is None else "usual")
+        if off_um:
+            paragraph(words()("fit.still-off", off=f"{off_um:.2f}"), "yellow")
         if output is not None:
             say(words()("commands.written", names=str(output)))
 
 
-def _write(done: "CircleFit", machine: str, feed_um_s: float | None, output: Path) -> None:
-    """The machine file, with a line for what was measured of each of its keys."""
+def _write(done: "CircleFit", base: "Machine", feed_um_s: float | None, output: Path) -> float:
+    """The machine file, with a line for what was measured of each of its keys; gives the µm it is off, if any."""
     from sim.base.files import staged
     from sim.cli.progress import StageProgress
-    from sim.run.ballbar.fitted import fitted_machine
-    from sim.setup.machine.machine import load_machine, machine_sections
+    from sim.run.ballbar.fitted import ALIKE_UM, fitted_machine
+    from sim.setup.machine.machine import machine_sections
     from sim.setup.toml.keys import toml_text
 
     with StageProgress("run-ccw", "run-cw") as progress:
-        fitted = fitted_machine(load_machine(machine), done, feed_um_s, progress)
+        fitted = fitted_machine(base, done, feed_um_s, progress)
+    off_um = fitted.off_um if fitted.off_um > ALIKE_UM else 0.0
     lines = [
         f"# {each.name}: {each.value:.3f} {each.unit}, {each.least:.3f} to {each.most:.3f} (95 %)\n"
         for each in done.parameters
         if each.name.startswith("reversal") and each.value is not None
     ]
+    if off_um:
+        lines.append(f"# lost motion still differs by {off_um:.2f} um from what was measured\n")
     text = "".join(lines) + f"# set so: {', '.join(fitted.keys)}\n" + toml_text(machine_sections(fitted.machine))
     with staged(output.parent, [output.name]) as stage:
         (stage / output.name).write_text(text, encoding="utf-8")
+    return off_um

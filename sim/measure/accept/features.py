@@ -6,6 +6,7 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from parser.geometry.curves import Floats
+from sim.measure.fit.circle import algebraic_circle
 
 LEAST_PLACES: Final = {"circle": 5, "width": 5}
 """Of a feature: one more than what is solved for, and one besides."""
@@ -22,18 +23,14 @@ class Size(NamedTuple):
 
 def circle_size(place_um: Floats) -> Size:
     """The diameter of the circle through places (n, 2), of least squared distances (Gauss and Newton, from Kåsa's)."""
-    middle = place_um.mean(axis=0)
-    x, y = (place_um - middle).T
-    columns = np.column_stack([x, y, np.ones(len(x))])
-    a, b, c = np.linalg.lstsq(columns, x**2 + y**2, rcond=None)[0].tolist()
-    center, radius = np.array([0.5 * a, 0.5 * b]), math.sqrt(max(c + 0.25 * (a * a + b * b), 0.0))
+    center, radius = algebraic_circle(place_um)
     for _ in range(5):
-        out = np.column_stack([x, y]) - center
+        out = place_um - center
         away = np.hypot(out[:, 0], out[:, 1])
-        columns = np.column_stack([out / away[:, None], np.ones(len(x))])
+        columns = np.column_stack([out / away[:, None], np.ones(len(out))])
         step = np.linalg.lstsq(columns, away - radius, rcond=None)[0]
         center, radius = center + step[:2], radius + float(step[2])
-    off = np.hypot(*(np.column_stack([x, y]) - center).T) - radius
+    off = np.hypot(*(place_um - center).T) - radius
     error, free = _error(columns, off, 2)
     return Size(2.0 * radius, 2.0 * error, float(np.ptp(off)), free)
 

@@ -195,9 +195,10 @@ def _barrels(sizes: list[Judged]) -> list[tuple[float, float]]:
     """How much larger each feature is in the middle of its heights than at both ends, and how sure that is."""
     found = list[tuple[float, float]]()
     for name in dict.fromkeys(each.feature.name for each in sizes):
-        rows = sorted((each.z_mm, each) for each in sizes if each.feature.name == name and each.z_mm is not None)
+        at_heights = [each for each in sizes if each.feature.name == name and each.z_mm is not None]
+        rows = sorted(at_heights, key=lambda each: each.z_mm or 0.0)
         if len(rows) > 2:
-            low, middle, high = rows[0][1], rows[len(rows) // 2][1], rows[-1][1]
+            low, middle, high = rows[0], rows[len(rows) // 2], rows[-1]
             sign = -1.0 if low.feature.inside else 1.0
             bow = middle.deviation_um - 0.5 * (low.deviation_um + high.deviation_um)
             by = math.sqrt(middle.uncertainty_um**2 + 0.25 * (low.uncertainty_um**2 + high.uncertainty_um**2))

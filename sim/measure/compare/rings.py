@@ -111,14 +111,16 @@ def rings_of(toolpath: Toolpath) -> Rings:
     found = find_passes(toolpath)
     edges = _by_edge(found)
     _refuse_too_many(edges)
-    block, contour = toolpath.source.block, contour_rows(toolpath)
-    closing = kerf_ways(toolpath, _first_rows(toolpath, [passes[0] for passes in edges if not _is_ring(passes)]))
+    block, contour, rows = toolpath.source.block, contour_rows(toolpath), runs(toolpath)
+    is_open = np.array([passes[0].first for passes in edges if not _is_ring(passes)], dtype=np.int64)
+    closing = kerf_ways(toolpath, rows[contour[is_open], 0])
     rings, open_blocks, within = [], [], []
     leads: list[PathPass] = []
     for passes in edges:
-        way = closing.get(int(_first_rows(toolpath, passes[:1])[0]))
+        of = int(contour[passes[0].first])
+        way = closing.get(int(rows[of, 0]))
         if way is not None and not _is_ring(passes):
-            rings.append(_closed_by_kerf(toolpath, passes[0], way))
+            rings.append(_closed_by_kerf(toolpath, slice(*rows[of].tolist()), way, of))
             continue
         if not _is_ring(passes):
             open_blocks.append((int(block[passes[0].first]), int(block[passes[0].last])))
@@ -140,26 +142,19 @@ def rings_of(toolpath: Toolpath) -> Rings:
     )
 
 
-def _first_rows(toolpath: Toolpath, passes: Sequence[Pass]) -> Ints:
-    """(k,) the first row of the contour that each pass is in."""
-    begin = runs(toolpath)[:, 0]
-    return begin[np.searchsorted(begin, [pass_.first for pass_ in passes], side="right") - 1]
-
-
-def _closed_by_kerf(toolpath: Toolpath, pass_: Pass, way: KerfWay) -> PathEdge:
-    """The edge of a contour that begins and ends in the kerf of others; it encloses the part."""
-    first, past = runs(toolpath)[contour_rows(toolpath)[pass_.first]].tolist()
+def _closed_by_kerf(toolpath: Toolpath, rows: slice, way: KerfWay, contour: int) -> PathEdge:
+    """The edge of a contour, some rows, that begins and ends in the kerf of others; it encloses the part."""
     back = running(way.curves, np.arange(len(way.row)), way.backwards)
     # Its ends are those of the contour, and of each curve the end of the one before it: whole µm part them.
     back = replace(
         back,
-        start_um=np.concatenate([toolpath.end_um[past - 1 : past], back.end_um[:-1]]),
-        end_um=np.concatenate([back.end_um[:-1], toolpath.start_um[first : first + 1]]),
+        start_um=np.concatenate([toolpath.end_um[rows][-1:], back.end_um[:-1]]),
+        end_um=np.concatenate([back.end_um[:-1], toolpath.start_um[rows][:1]]),
     )
     block = toolpath.source.block
-    ring = joined([toolpath.picked(slice(first, past)), back])
-    loop = PathPass(ring, np.concatenate([block[first:past], block[way.row]]), 1)
-    return PathEdge((loop,), loop, orientation(ring), contour_rows(toolpath)[[pass_.first]])
+    ring = joined([toolpath.picked(rows), back])
+    loop = PathPass(ring, np.concatenate([block[rows], block[way.row]]), 1)
+    return PathEdge((loop,), loop, orientation(ring), np.array([contour], dtype=np.int64))
 
 
 def _by_edge(found: Passes) -> list[list[Pass]]:

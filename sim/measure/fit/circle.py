@@ -26,7 +26,7 @@ import numpy as np
 from controller.stepping.chunks import chunk_of
 from controller.stepping.steps import interpolate_words, stepped_words
 from parser.findings.errors import SettingsError
-from parser.geometry.curves import Bools, Floats, curves_between
+from parser.geometry.curves import Bools, Floats, Ints, curves_between
 
 LEVEL: Final = 0.95
 LEAST_PLACES: Final = 24
@@ -86,8 +86,6 @@ class CircleFit(NamedTuple):
         How many rows were fitted, and how many lie far off.
     senses
         Directions that were run: 1 counter-clockwise, −1 clockwise.
-    angle_rad, off_um, is_used
-        (n,) directions, residuals and which rows were fitted, for a picture.
     """
 
     parameters: tuple[Parameter, ...]
@@ -96,9 +94,6 @@ class CircleFit(NamedTuple):
     places: int
     left_out: int
     senses: tuple[int, ...]
-    angle_rad: Floats
-    off_um: Floats
-    is_used: Bools
 
     def value(self, name: str) -> float | None:
         """The value of a parameter; None where it is not determined."""
@@ -122,7 +117,7 @@ def fit_circle(place_um: Floats, feed_um_s: float | None = None, *, by_points: b
     """
     if len(place_um) < LEAST_PLACES:
         raise SettingsError("circle-too-few", found=len(place_um), least=LEAST_PLACES)
-    center, radius = _algebraic(place_um)
+    center, radius = algebraic_circle(place_um)
     for _ in range(2):
         out = place_um - center
         angle, off = np.arctan2(out[:, 1], out[:, 0]), np.hypot(out[:, 0], out[:, 1]) - radius
@@ -134,11 +129,10 @@ def fit_circle(place_um: Floats, feed_um_s: float | None = None, *, by_points: b
         is_used = _without_far(design.columns, off, _off_reversals(angle))
         solved = np.linalg.lstsq(design.columns[is_used], off[is_used], rcond=None)[0]
         center = center + solved[[design.names.index(name) for name in ("center_x", "center_y")]]
-    residual = off - design.columns @ solved
     parameters = _parameters(design, off, is_used, (center, radius), feed_um_s)
     if by_points:
         parameters = tuple(map(_widened, parameters))
-    used = residual[is_used]
+    used = (off - design.columns @ solved)[is_used]
     return CircleFit(
         parameters=parameters,
         residual_um=float(np.sqrt(np.mean(used**2))),
@@ -146,9 +140,6 @@ def fit_circle(place_um: Floats, feed_um_s: float | None = None, *, by_points: b
         places=int(is_used.sum()),
         left_out=int((_off_reversals(angle) & ~is_used).sum()),
         senses=tuple(each for each in (1, -1) if (sense == each).any()),
-        angle_rad=angle,
-        off_um=residual,
-        is_used=is_used,
     )
 
 
@@ -168,21 +159,27 @@ def steps_um(angle: Floats, sense: Floats, radius_um: float) -> Floats:
     motion.
     """
     radius, off = float(max(round(radius_um), 1)), np.zeros(len(angle))
-    cell = np.floor(np.mod(angle, 2.0 * np.pi) / (2.0 * np.pi) * _CELLS).astype(np.int64) % _CELLS
+    cell = _cells(angle)
     for of in (1.0, -1.0):
         start = np.array([[radius, 0.0]])
         circle = curves_between(start, start.copy(), np.zeros((1, 2)), np.array([2.0 * np.pi * of]))
         steps = interpolate_words(stepped_words(circle), circle.length_um)
         made = chunk_of(steps, 0, len(steps))
         x, y = made.x_um + radius, made.y_um.astype(np.float64)
-        at = np.floor(np.mod(np.arctan2(y, x), 2.0 * np.pi) / (2.0 * np.pi) * _CELLS).astype(np.int64) % _CELLS
+        at = _cells(np.arctan2(y, x))
         mean = np.bincount(at, np.hypot(x, y) - radius, _CELLS) / np.maximum(np.bincount(at, minlength=_CELLS), 1)
         off[sense == of] = mean[cell[sense == of]]
     return off
 
 
-def _algebraic(place_um: Floats) -> tuple[Floats, float]:
-    """Centre and radius of the circle through places by the least squares of x² + y² (I. Kåsa, 1976)."""
+def _cells(angle: Floats) -> Ints:
+    """(n,) which quarter of a degree directions lie in."""
+    cell: Ints = np.floor(np.mod(angle, 2.0 * np.pi) / (2.0 * np.pi) * _CELLS).astype(np.int64) % _CELLS
+    return cell
+
+
+def algebraic_circle(place_um: Floats) -> tuple[Floats, float]:
+    """Centre (2,) and radius µm of the circle through places (n, 2), by least squares of x² + y² (I. Kåsa, 1976)."""
     middle = place_um.mean(axis=0)
     x, y = (place_um - middle).T
     columns = np.column_stack([x, y, np.ones(len(x))])
@@ -295,7 +292,7 @@ def _not_told(found: list[Parameter], one_direction: bool, feed_um_s: float | No
 
 
 def _explained(columns: Floats) -> Floats:
-    """(p,) the share of each column that the others explain; 0 of those that tell the directions apart."""
+    """(p,) the share of each column's sum of squares that the others explain, 0 to 1."""
     shares = np.zeros(columns.shape[1])
     for at in range(columns.shape[1]):
         others = np.delete(columns, at, axis=1)

@@ -15,13 +15,17 @@ from sim.measure.fit.circle import CircleFit, fit_circle
 from sim.run.ballbar.circle import circle_test, run_test
 from sim.setup.machine.machine import Machine
 
-_ALIKE_UM: Final = 0.05
+ALIKE_UM: Final = 0.05
+"""Lost motion that differs by no more is as it was measured."""
 _ROUNDS: Final = 5
 _AXES: Final = ("x", "y")
 
 
 class FittedMachine(NamedTuple):
-    """A machine that loses as much motion as was measured, the keys that were set for that, and what still differs."""
+    """A machine that loses as much motion as was measured, and the keys that were set for that.
+
+    `off_um` is by how much its lost motion still differs from what was measured, of the worse axis.
+    """
 
     machine: Machine
     keys: tuple[str, ...]
@@ -38,11 +42,11 @@ def fitted_machine(
     """
     radius_um = float(round(next(each.value for each in fit.parameters if each.value is not None)))
     wanted = [fit.value(f"reversal_{name}") for name in _AXES]
-    made, off = machine, [0.0, 0.0]
-    for _ in range(_ROUNDS):
+    made = machine
+    for rounds_left in reversed(range(_ROUNDS + 1)):
         found = _simulated(made, radius_um, feed_um_s, progress)
         off = [_less(want, found.value(f"reversal_{name}")) for want, name in zip(wanted, _AXES, strict=True)]
-        if max(map(abs, off)) <= _ALIKE_UM:
+        if max(map(abs, off)) <= ALIKE_UM or not rounds_left:
             break
         made = _with_more(made, off)
     keys = tuple(_changed(machine, made, wanted))

@@ -1,13 +1,15 @@
 """What a measured circle tells on the terminal: each parameter with its interval, or why there is none."""
 
+from typing import Literal
+
 from parser.findings.catalogue import Language
 from sim.measure.fit.circle import CircleFit, Parameter
 from sim.show.terminal.layout import paragraph, show, table
 from sim.show.texts import Words
 
 
-def print_fit(done: CircleFit, language: Language, *, is_known: bool) -> None:
-    """Print a fit to stdout; `is_known` tells that its machine was named."""
+def print_fit(done: CircleFit, language: Language, unnamed: Literal["", "unknown", "usual"]) -> None:
+    """Print a fit to stdout; where nobody named its machine, what was taken for it: nothing, or the usual one."""
     tell = Words(language)
     rows = table(
         tell("fit.title"), tuple(tell(f"fit.head-{name}") for name in ("parameter", "value", "interval")), (1,)
@@ -20,8 +22,8 @@ def print_fit(done: CircleFit, language: Language, *, is_known: bool) -> None:
     paragraph(tell("fit.of", **values))
     if done.left_out:
         paragraph(tell("fit.left-out", number=done.left_out), "cyan")
-    if not is_known:
-        paragraph(tell("fit.unknown-machine"), "cyan")
+    if unnamed:
+        paragraph(tell(f"fit.{unnamed}-machine"), "cyan")
     if done.lack:
         paragraph(tell("fit.lack", why=tell(f"fit.lack-{done.lack}")), "yellow")
 

@@ -4,6 +4,7 @@ import json
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 from command import run_inside
 from jsonschema import Draft202012Validator
@@ -44,6 +45,32 @@ def test_a_fitted_machine_file_runs_the_circle_that_was_measured(machine: Path) 
     assert not {"backlash_x_um", "backlash_y_um"} & set(fitted.assumed)
     assert circularity_um(mine) == pytest.approx(circularity_um(machine), abs=0.3)
     assert re.match(r"# reversal_x: \d", mine.read_text("utf-8"))
+
+
+def test_without_a_machine_both_circles_are_taken_for_one_of_the_usual_machine(machine: Path) -> None:
+    trace, mine = machine.parent / "trace.csv", machine.parent / "mine.toml"
+    run_inside("ballbar", *TEST, "--machine", machine, "--trace", trace)
+    done = run_inside("fit", trace, "--feed", "30mm/min", "-o", mine)
+    assert done.returncode == 0
+    assert "taken for a DK7740" in " ".join(done.stdout.decode().split())
+    assert load_machine(str(mine)).table.backlash_um == pytest.approx((7.0, 0.5), abs=0.1)
+
+
+def test_lost_motion_that_no_machine_file_makes_is_told(machine: Path) -> None:
+    trace, mine = machine.parent / "trace.csv", machine.parent / "mine.toml"
+    angle = np.linspace(0.0, 2.0 * np.pi, 720)
+    way = np.column_stack([np.cos(angle), np.sin(angle)])
+    # Lost motion of −5 µm on both axes, by the formula of docs/fit.md: an axis runs ahead where it turns round.
+    out = -0.0025 * (np.sign(way[:, 1]) * way[:, 0] - np.sign(way[:, 0]) * way[:, 1])
+    turns = [(3.0 + out)[:, None] * way, ((3.0 - out)[:, None] * way)[::-1]]
+    trace.write_text("x_mm,y_mm\n" + "".join(f"{x:.5f},{y:.5f}\n" for x, y in np.concatenate(turns)))
+    done = run_inside("fit", trace, "--machine", "dk7740", "--feed", "30mm/min", "-o", mine)
+    assert done.returncode == 0
+    off = re.search(
+        r"at a reversal the machine file loses up to (\S+) µm more or less", " ".join(done.stdout.decode().split())
+    )
+    assert off is not None
+    assert f"# lost motion still differs by {off[1]} um from what was measured" in mine.read_text("utf-8")
 
 
 @pytest.mark.parametrize("language", ["en", "zh"])
