@@ -83,7 +83,7 @@ def _write(done: "CircleFit", base: "Machine", feed_um_s: float | None, output: 
         if each.name.startswith("reversal") and each.value is not None
     ]
     if off_um:
-        lines.append(f"# lost motion still differs by {off_um:.2f} um from what was measured\n")
+        lines.append(f"# lost motion still differs by {off_um:.2f} µm from what was measured\n")
     text = "".join(lines) + f"# set so: {', '.join(fitted.keys)}\n" + toml_text(machine_sections(fitted.machine))
     with staged(output.parent, [output.name]) as stage:
         (stage / output.name).write_text(text, encoding="utf-8")

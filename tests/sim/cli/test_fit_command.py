@@ -70,7 +70,7 @@ def test_lost_motion_that_no_machine_file_makes_is_told(machine: Path) -> None:
         r"at a reversal the machine file loses up to (\S+) µm more or less", " ".join(done.stdout.decode().split())
     )
     assert off is not None
-    assert f"# lost motion still differs by {off[1]} um from what was measured" in mine.read_text("utf-8")
+    assert f"# lost motion still differs by {off[1]} µm from what was measured" in mine.read_text("utf-8")
 
 
 @pytest.mark.parametrize("language", ["en", "zh"])
