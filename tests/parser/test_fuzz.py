@@ -25,6 +25,7 @@ SLOWEST_S = 10.0
 
 INPUTS = {
     **{
+        "read": 200,
         "program": 120,
         "fix": 15,
         "iso": 100,

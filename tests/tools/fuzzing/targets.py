@@ -1,11 +1,24 @@
 """All that is fuzzed."""
 
-from fuzzing import card_logs, commands, conversions, drawings, editors, makings, programs, runs, setups, stores
+from fuzzing import (
+    card_logs,
+    commands,
+    conversions,
+    drawings,
+    editors,
+    makings,
+    programs,
+    readers,
+    runs,
+    setups,
+    stores,
+)
 from fuzzing.target import Target
 
 TARGETS = {
     target.name: target
     for target in (
+        Target("read", readers.make, readers.judge, 100.0, most_mb=200.0),
         Target("program", programs.make, programs.judge, 12.0),
         Target("fix", programs.make, programs.judge_fix, 5.0),
         Target("iso", programs.make_iso, programs.judge, 8.0),

@@ -106,8 +106,9 @@ def tried(task: Task, number: int, folder: Path) -> tuple[list[str], str]:
 
 def _judged(task: Task, number: int, folder: Path) -> Judged:
     """The judgement in a folder that is empty; an exception that gets out is a broken promise."""
-    shutil.rmtree(folder, ignore_errors=True)
-    folder.mkdir()
+    if not folder.is_dir() or any(folder.iterdir()):
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir()
     try:
         data = task.target.input(task.seed, number) if task.given is None else task.given
         return task.target.judge(data, number, folder)
