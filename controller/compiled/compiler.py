@@ -4,7 +4,8 @@ What numba makes is called as numba calls it within its own code (`controller.co
 Python are left out, as they need numba itself at hand.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from functools import cache
 from typing import Any, Final, Protocol, get_type_hints
 
@@ -12,6 +13,7 @@ import llvmlite.binding as llvm
 import numba
 import numpy as np
 from numba import types
+from numba.core import codegen
 from numba.extending import typeof_impl
 from numpy.typing import NDArray
 
@@ -34,6 +36,7 @@ class Source(Protocol):
     function: Callable[..., Any]
     signature: str
     tuples: tuple[type, ...]
+    inlined: bool
 
     def __hash__(self) -> int:
         """By which it is found again."""
@@ -41,7 +44,8 @@ class Source(Protocol):
 
 def made_of(loop: Source) -> MachineCode:
     """Machine code of a loop for its one signature, with that of all loops that it calls."""
-    dispatcher = _dispatcher(loop)
+    with _without_machine_code():
+        dispatcher = _dispatcher(loop)
     (typed,) = dispatcher.signatures
     made = dispatcher.overloads[typed]
     module = llvm.parse_assembly(dispatcher.inspect_llvm(typed))
@@ -51,6 +55,28 @@ def made_of(loop: Source) -> MachineCode:
         gives=_shape(made.signature.return_type),
         object_code=target_machine().emit_object(module),
     )
+
+
+@contextmanager
+def _without_machine_code() -> Iterator[None]:
+    """Let numba make no machine code of its own, of each loop and of each that it calls: nobody calls it there.
+
+    That is a quarter of the time. Nothing else may be compiled meanwhile: threads wait for one another in
+    `controller.compiled.loops`.
+    """
+    library, target = codegen.JITCodeLibrary, codegen.JITCPUCodegen
+    before = (library._finalize_specific, library.get_pointer_to_function, target.set_env)
+
+    def no_address(made: codegen.JITCodeLibrary, _: str) -> int:
+        made._ensure_finalized()
+        return 0
+
+    library._finalize_specific, library.get_pointer_to_function = (lambda _: None), no_address
+    target.set_env = lambda *_: None
+    try:
+        yield
+    finally:
+        library._finalize_specific, library.get_pointer_to_function, target.set_env = before
 
 
 @cache
@@ -66,7 +92,7 @@ def _type_of_loop(loop: Source, context: object) -> types.Type:
 @cache
 def _dispatcher(loop: Source) -> Any:
     """A loop as numba has it, compiled."""
-    inlined = {"forceinline": True} if loop.tuples else {}
+    inlined = {"forceinline": True} if loop.tuples and loop.inlined else {}
     return numba.njit(_signature(loop.signature, loop.tuples), **_OPTIONS, **inlined)(loop.function)
 
 

@@ -19,10 +19,12 @@ LOOPS: Final[tuple[str, ...]] = (
     "sim.measure.curve_rows",
     "sim.measure.deviation",
     "sim.measure.causes",
-    "sim.table.drive",
+    "sim.table.forms",
+    "sim.table.course",
     "sim.table.rating",
     "sim.table.history",
     "sim.table.axis",
+    "sim.table.recording",
     "sim.table.swings",
 )
 """Modules with compiled loops."""

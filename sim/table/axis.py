@@ -1,13 +1,31 @@
-"""One axis of the table: what it is, what it is asked for, how far it has come, and what a tick does to it."""
+"""One axis of the table, from event to event: what it is, what it is asked for, how far it has come, what is next.
+
+Besides the events of its course (`sim.table.course`) something happens where its motor begins or ends a step, where
+its step rate is taken anew, and where a servo of the table trips.
+"""
 
 import math
 from typing import NamedTuple
 
 from controller.compiled.loops import compiled
-from parser.geometry.curves import Floats
-from sim.table.drive import Drive, Kick, Kicked, Slide, kicked
-from sim.table.history import Limits, Record, Values, binned, peaked, sampled
+from sim.table.course import (
+    LIMITED,
+    LOOSE,
+    NOTHING,
+    SLIPS,
+    STILL_UM,
+    Body,
+    Bounds,
+    Course,
+    Hold,
+    after_event,
+    anew,
+    end_of,
+)
 from sim.table.rating import Rating, Strength, Train, Turn, rated, turned
+
+_BRAKED_TO = 1e-6
+"""A slide that brakes counts as standing once it is this slow, µm/s."""
 
 
 class Axis(NamedTuple):
@@ -15,33 +33,21 @@ class Axis(NamedTuple):
 
     Attributes
     ----------
-    drive, strength
-        Its drive, and what its motor can do.
+    body, strength
+        Its drive and its travel, and what its motor can do.
     step_time_s
         Time that the motor takes for a step.
     trip_um
         Lag at which a servo trips; infinite for a stepper.
     speed_limit_um_s
         Speed limit, for its peak; infinite where there is none.
-    low_um, high_um
-        Ends of its travel.
-    step_tick_s, steps_tick_s, shaken_tick_s
-        Ticks while single steps are felt, while the motor makes several at once, and while the axis is shaken by more.
-    shakes_s
-        Times at which shakes begin and end in turn, and infinity.
     """
 
-    drive: Drive
+    body: Body
     strength: Strength
     step_time_s: float
     trip_um: float
     speed_limit_um_s: float
-    low_um: float
-    high_um: float
-    step_tick_s: float
-    steps_tick_s: float
-    shaken_tick_s: float
-    shakes_s: Floats
 
 
 class AxisDemand(NamedTuple):
@@ -63,187 +69,175 @@ class AxisDemand(NamedTuple):
 
 
 class Noted(NamedTuple):
-    """How far the record of an axis is: the next sample, bin, slip and shake, pulses commanded, and ticks in all."""
+    """How far the record of an axis is: the next sample, bin and slip, pulses commanded, and courses in all."""
 
     sample: int
     bin: int
     slip: int
-    shake: int
     commanded: int
-    ticks: int
+    courses: int
 
 
 class State(NamedTuple):
-    """How far an axis has come; `tripped_s` is when its servo tripped, infinite where it did not."""
+    """How far an axis has come.
 
-    slide: Slide
+    Attributes
+    ----------
+    t_s
+        Now.
+    course
+        Its course from now on.
+    lost_um
+        Way that the motor has lost so far: how far it stands behind the place commanded.
+    rests
+        Whether it stands until its motor turns again.
+    turn, rating, noted
+        Where its motor stands, what it can do, and how far its record is.
+    tripped_s
+        When its servo tripped; infinite where it did not.
+    """
+
+    t_s: float
+    course: Course
+    lost_um: float
+    rests: bool
     turn: Turn
     rating: Rating
     noted: Noted
     tripped_s: float
 
+    @property
+    def at_um(self) -> float:
+        """Place of the slide."""
+        return self.course.at_um
 
-STILL_UM = 1e-6
-"""Without friction a slide counts as resting where its ringing is smaller than this: way, and v / ω."""
-
-
-class Ahead(NamedTuple):
-    """A tick that is about to pass: its length, the kick at its beginning, and its motor after that."""
-
-    tick_s: float
-    shake: int
-    kick: Kick
-    turn: Turn
-    rating: Rating
+    @property
+    def lag_um(self) -> float:
+        """Its lag behind the motor."""
+        return self.course.lag_um
 
 
-class Passed(NamedTuple):
-    """A tick that has passed: what the drive did, where the slide is then, and its velocity meanwhile."""
+class Leg(NamedTuple):
+    """What an axis does next: its course as it begins and as it ends, for how long, and the state after that."""
 
-    force: float
-    at_um: float
-    velocity: float
+    course: Course
+    last: Course
+    after_s: float
+    state: State
 
 
-@compiled("(Axis, AxisDemand, State)", Axis, AxisDemand, State)
-def ahead_of(axis: Axis, demand: AxisDemand, state: State) -> Ahead:
-    """What a tick asks of a drive.
+def standing(at_um: float) -> Course:
+    """The course of a slide that stands at a place, its motor there too."""
+    return Course(at_um, 0.0, 0.0, 0.0, Hold(0, LOOSE, 0), 0.0, False)
 
-    The kick goes from the middle of the tick before it to the middle of its own. A slide that has rested is kicked by
-    the half of its own tick alone.
-    """
-    slide, shake = state.slide, state.noted.shake
-    while axis.shakes_s[shake] <= slide.t_s:
-        shake += 1
-    tick_s = axis.steps_tick_s if state.turn.begun - state.turn.done > 1 else axis.step_tick_s
-    if shake % 2:
-        tick_s = axis.shaken_tick_s
+
+@compiled("(Axis, AxisDemand, Rating)", Axis, AxisDemand, Rating)
+def bounds_of(axis: Axis, demand: AxisDemand, rating: Rating) -> Bounds:
+    """What its motor can do at its step rate. Where a servo is known to have tripped, none trips before it."""
+    trip_um = axis.trip_um if demand.braked_s == math.inf else math.inf
+    return Bounds(rating.limit, min(rating.pull_out_um, trip_um))
+
+
+@compiled("f8(Axis, AxisDemand, Turn)", Axis, AxisDemand, Turn)
+def _corner_s(axis: Axis, demand: AxisDemand, turn: Turn) -> float:
+    """When a motor begins or ends a step next."""
+    ends_s = demand.train.t_s[turn.done] + axis.step_time_s if turn.done < turn.begun else math.inf
+    return float(min(demand.train.t_s[turn.begun], ends_s))
+
+
+@compiled("(Axis, Course, f8)", Axis, Course)
+def _slipped(axis: Axis, course: Course, pull_out_um: float) -> Course:
+    """A course after its motor has slipped: whole electrical periods, until the lag is within the pull-out again."""
+    period_um = axis.strength.period_um
+    beyond = math.ceil((abs(course.lag_um) - pull_out_um) / period_um)
+    lag_um = course.lag_um - math.copysign(max(beyond, 1.0) * period_um, course.lag_um)
+    return Course(course.at_um, course.velocity, lag_um, course.motor_um_s, course.hold, course.force, course.braked)
+
+
+@compiled("(Course,)", Course)
+def _braked(course: Course) -> Course:
+    """A course from where a servo has tripped on, or has braked for some time."""
+    velocity = course.velocity if abs(course.velocity) > 2.0 * _BRAKED_TO else 0.0
+    way = 0 if velocity == 0.0 else (1 if velocity > 0.0 else -1)
+    return Course(course.at_um, velocity, course.lag_um, course.motor_um_s, Hold(0, LOOSE, way), 0.0, True)
+
+
+@compiled("(Axis, AxisDemand, State)", Axis, AxisDemand, State, inlined=False)
+def turned_to(axis: Axis, demand: AxisDemand, state: State) -> State:
+    """An axis whose motor has begun and ended the steps that are due, and what it can do is known for now."""
+    t_s, course, noted = state.t_s, state.course, state.noted
     rating = state.rating
-    if slide.t_s >= rating.until_s:
-        rating = rated(axis.strength, demand.train, rating, slide.t_s)
-    turn = turned(demand.train, axis.step_time_s, state.turn, slide.t_s + tick_s / 2.0)
-    length_s = (slide.tick_s + tick_s) / 2.0
-    motor_um = (state.turn.place_um + turn.place_um) / 2.0 - slide.lost_um
-    at_um = slide.at_um + slide.velocity * (tick_s - slide.tick_s) / 4.0
-    motor_um_s = (turn.place_um - state.turn.place_um) / length_s
-    kick = Kick(motor_um - at_um, motor_um_s, slide.velocity, length_s, rating.limit)
-    return Ahead(tick_s, shake, kick, turn, rating)
-
-
-@compiled("(Axis, AxisDemand, Slide, Ahead)", Axis, AxisDemand, Slide, Ahead)
-def driven(axis: Axis, demand: AxisDemand, slide: Slide, ahead: Ahead) -> Kicked:
-    """What a drive does in a tick: once a servo has tripped, nothing drives, and both axes brake."""
-    if slide.t_s < demand.braked_s:
-        return kicked(axis.drive, ahead.kick)
-    braking = ahead.kick.length_s * (axis.drive.damper + axis.drive.viscous)
-    return Kicked(slide.velocity / (1.0 + braking), 0.0)
-
-
-@compiled("f8(Ahead, f8)", Ahead)
-def slip_of(ahead: Ahead, period_um: float) -> float:
-    """Way that a motor loses: whole electrical periods, until the lag is within the pull-out again."""
-    beyond_um = abs(ahead.kick.lag_um) - ahead.rating.pull_out_um
-    if beyond_um <= 0.0:
-        return 0.0
-    return math.copysign(math.ceil(beyond_um / period_um) * period_um, ahead.kick.lag_um)
-
-
-@compiled("b1(Axis, Ahead, Passed)", Axis, Ahead, Passed)
-def stands(axis: Axis, ahead: Ahead, passed: Passed) -> bool:
-    """Whether a slide stands from now on while its motor does: the next tick would be like this one.
-
-    Friction stops a slide for good. Without friction it rings ever less, and counts as resting within `STILL_UM`.
-    """
-    drive, kick = axis.drive, ahead.kick
-    if kick.motor_um_s != 0.0 or ahead.turn.done < ahead.turn.begun:
-        return False
-    if abs(passed.force) >= kick.limit and kick.limit < axis.strength.limit[0]:  # the motor can do more at a standstill
-        return False
-    if kick.velocity == 0.0 and passed.velocity == 0.0:
-        return True
-    still = max(abs(kick.velocity), abs(passed.velocity)) < STILL_UM * math.sqrt(drive.spring)
-    return still and drive.friction == 0.0 and abs(passed.force) < STILL_UM * drive.spring
-
-
-@compiled("(Axis, AxisDemand, State, Ahead, Passed)", Axis, AxisDemand, State, Ahead, Passed)
-def after(axis: Axis, demand: AxisDemand, state: State, ahead: Ahead, passed: Passed) -> State:
-    """An axis after a tick."""
-    slide, noted, lag_um = state.slide, state.noted, ahead.kick.lag_um
-    t_s, braked = slide.t_s + ahead.tick_s, slide.t_s >= demand.braked_s
-    slip_um = 0.0 if braked else slip_of(ahead, axis.strength.period_um)
-    rests = slip_um == 0.0 and stands(axis, ahead, passed)
-    velocity = 0.0 if rests else passed.velocity
-    tripped_s = t_s if abs(lag_um) > axis.trip_um and not braked else math.inf
+    if t_s >= rating.until_s:
+        rating = rated(axis.strength, demand.train, rating, t_s)
+    turn = turned(demand.train, axis.step_time_s, state.turn, t_s)
+    speed = turn.rising_um / axis.step_time_s if turn.rising_um != 0.0 else 0.0
     commanded = noted.commanded
     while demand.train.t_s[commanded] <= t_s:
         commanded += 1
-    now = Slide(t_s, passed.at_um, velocity, ahead.tick_s, slide.lost_um + slip_um, lag_um, passed.force, rests)
-    noted = Noted(noted.sample, noted.bin, noted.slip, ahead.shake, commanded, noted.ticks + 1)
-    return State(now, ahead.turn, ahead.rating, noted, min(tripped_s, state.tripped_s))
+    noted = Noted(noted.sample, noted.bin, noted.slip, commanded, noted.courses)
+    if t_s >= demand.braked_s:
+        braked = _braked(course)
+        return State(t_s, braked, state.lost_um, braked.hold.way == 0, turn, rating, noted, state.tripped_s)
+    lag_um = turn.place_um - state.lost_um - course.at_um
+    course = Course(course.at_um, course.velocity, lag_um, speed, course.hold, course.force, False)
+    bounds, lost_um, tripped_s = bounds_of(axis, demand, rating), state.lost_um, state.tripped_s
+    if abs(lag_um) > bounds.lag_um:
+        if axis.trip_um < math.inf:
+            tripped_s = min(t_s, tripped_s)
+        else:
+            course = _slipped(axis, course, bounds.lag_um)
+            lost_um += lag_um - course.lag_um
+    following = anew(axis.body, bounds, course)
+    return _stilled(axis, State(t_s, following, lost_um, False, turn, rating, noted, tripped_s))
 
 
-@compiled("(AxisDemand, State, State)", AxisDemand, State)
-def values_of(demand: AxisDemand, before: State, now: State) -> Values:
-    """What an axis did from one state to the next, which is a tick later, or a rest."""
-    since, slide = before.slide, now.slide
-    length_s, velocity = slide.t_s - since.t_s, slide.velocity
-    error_um = demand.train.place_um[now.noted.commanded] - slide.at_um
-    # Where ticks become shorter, the kick is longer than the tick that it begins.
-    acceleration = (velocity - since.velocity) / max(length_s, (since.tick_s + length_s) / 2.0)
-    return Values(velocity, acceleration, slide.lag_um, error_um, slide.force)
+@compiled("(Axis, State)", Axis, State)
+def _stilled(axis: Axis, state: State) -> State:
+    """An axis that rests, where its slide stands and its motor does: without friction once it rings ever so little."""
+    course, drive = state.course, axis.body.drive
+    idle = state.turn.done == state.turn.begun
+    way = course.hold.way
+    if idle and way != 0 and drive.friction == 0.0 and course.hold.grip != LIMITED:
+        still = abs(course.velocity) < STILL_UM * math.sqrt(drive.spring)
+        if still and abs(course.force) < STILL_UM * drive.spring:
+            hold = Hold(course.hold.side, course.hold.grip, 0)
+            course = Course(course.at_um, 0.0, course.lag_um, course.motor_um_s, hold, course.force, False)
+            way = 0
+    # At a standstill the motor can do more than at its last step rate.
+    rests = (
+        idle and way == 0 and (abs(course.force) < state.rating.limit or state.rating.limit >= axis.strength.limit[0])
+    )
+    return State(state.t_s, course, state.lost_um, rests, state.turn, state.rating, state.noted, state.tripped_s)
 
 
-@compiled("(Axis, Rating)", Axis, Rating)
-def limits_of(axis: Axis, rating: Rating) -> Limits:
-    """Limits of an axis at its step rate."""
-    return Limits(rating.limit, axis.speed_limit_um_s, min(rating.pull_out_um, axis.trip_um))
+@compiled("(Axis, AxisDemand, State)", Axis, AxisDemand, State, inlined=False)
+def next_leg(axis: Axis, demand: AxisDemand, state: State) -> Leg:
+    """What an axis does up to its next event, and its state after that.
 
-
-@compiled("(Axis, AxisDemand, State, State, Record)", Axis, AxisDemand, State, Record)
-def recorded(axis: Axis, demand: AxisDemand, before: State, now: State, record: Record) -> State:
-    """Record what an axis did from one state to the next; the next one, with how far the record is."""
-    since, slide, noted = before.slide, now.slide, before.noted
-    slip_um = slide.lost_um - since.lost_um
-    sample = sampled(record, noted.sample, since, slide.velocity, slide.t_s)
-    number, slip = noted.bin, noted.slip
-    if since.t_s < demand.braked_s:
-        values = values_of(demand, before, now)
-        number = binned(record.bins, number, since.t_s, min(slide.t_s, demand.braked_s), values)
-        peaked(record, values, limits_of(axis, now.rating), slide)
-    if slip_um != 0.0:
-        record.slip_s[slip], record.slip_um[slip], record.slip_at_um[slip] = slide.t_s, slip_um, slide.at_um
-        slip += 1
-    noted = Noted(sample, number, slip, now.noted.shake, now.noted.commanded, now.noted.ticks)
-    return State(slide, now.turn, now.rating, noted, now.tripped_s)
-
-
-@compiled("f8(AxisDemand, State)", AxisDemand, State)
-def due_s(demand: AxisDemand, state: State) -> float:
-    """When an axis has something to do: at its next pulse where it rests."""
-    slide = state.slide
-    if not slide.rests:
-        return slide.t_s
-    return math.inf if slide.t_s >= demand.braked_s else max(slide.t_s, demand.train.t_s[state.turn.begun])
-
-
-@compiled("(State, f8)", State)
-def waited(state: State, until_s: float) -> State:
-    """An axis that has rested until a time; its step rate is taken anew then."""
-    slide, turn, rating = state.slide, state.turn, state.rating
-    rested = Slide(until_s, slide.at_um, 0.0, 0.0, slide.lost_um, slide.lag_um, slide.force, False)
-    still = Turn(turn.place_um, until_s, 0.0, turn.begun, turn.done)
-    aged = Rating(rating.limit, rating.pull_out_um, until_s, rating.first, rating.last)
-    return State(rested, still, aged, state.noted, state.tripped_s)
-
-
-@compiled("(Axis, AxisDemand, State)", Axis, AxisDemand, State)
-def ticked(axis: Axis, demand: AxisDemand, state: State) -> State:
-    """An axis after a tick; its slide goes no farther than the stops of the travel, which take its velocity."""
-    slide, ahead = state.slide, ahead_of(axis, demand, state)
-    now = driven(axis, demand, slide, ahead)
-    at_um = slide.at_um + now.velocity * ahead.tick_s
-    if axis.low_um <= at_um <= axis.high_um:
-        return after(axis, demand, state, ahead, Passed(now.force, at_um, now.velocity))
-    stop_um = min(max(at_um, axis.low_um), axis.high_um)
-    velocity = (stop_um - slide.at_um) / ahead.tick_s
-    return after(axis, demand, state, ahead, Passed(now.force, stop_um, velocity))
+    A course that ends between two corners goes on with the next one; at a corner it begins anew.
+    """
+    course, bounds = state.course, bounds_of(axis, demand, state.rating)
+    due_s = min(_corner_s(axis, demand, state.turn), state.rating.until_s)
+    if course.braked:
+        slows_s = math.log(abs(course.velocity) / _BRAKED_TO) / (axis.body.drive.damper + axis.body.drive.viscous)
+        due_s = state.t_s + slows_s
+    else:
+        due_s = min(due_s, demand.braked_s)
+    (event, last), noted = end_of(axis.body, bounds, course, due_s - state.t_s), state.noted
+    noted = Noted(noted.sample, noted.bin, noted.slip, noted.commanded, noted.courses + 1)
+    turn, tripped_s, lost_um = state.turn, state.tripped_s, state.lost_um
+    if event.kind == NOTHING:
+        ended = State(due_s, last, lost_um, False, turn, state.rating, noted, tripped_s)
+        return Leg(course, last, event.after_s, turned_to(axis, demand, ended))
+    t_s = state.t_s + event.after_s
+    if event.kind == SLIPS and axis.trip_um < math.inf:
+        tripped = State(t_s, last, lost_um, False, turn, state.rating, noted, min(t_s, tripped_s))
+        return Leg(course, last, event.after_s, tripped)
+    if event.kind == SLIPS:
+        slipped = _slipped(axis, last, bounds.lag_um)
+        lost_um += last.lag_um - slipped.lag_um
+        following = anew(axis.body, bounds, slipped)
+    else:
+        following = after_event(axis.body, bounds, last, event)
+    ended = State(t_s, following, lost_um, False, turn, state.rating, noted, tripped_s)
+    return Leg(course, last, event.after_s, _stilled(axis, ended))

@@ -11,7 +11,8 @@ from parser.controller_words import Axis
 from parser.geometry.curves import Floats, Ints
 from parser.units import from_mm
 from sim.setup.machine.machine import TableEngine, TableModel
-from sim.table.drive import Bodies, drives_of
+from sim.table.bodies import Bodies, InBodies
+from sim.table.drive import drives_of
 from sim.table.history import History, history_of
 from sim.table.losses import (
     Loss,
@@ -22,13 +23,7 @@ from sim.table.losses import (
     peaks_of,
     trip_loss,
 )
-from sim.table.run import (
-    AxisRun,
-    Engine,
-    InBodies,
-    axis_of,
-)
-from sim.table.swings import followed
+from sim.table.run import AxisRun, ByEvents, axis_of
 from sim.table.ticks import Ticks
 from sim.table.trace import Trace
 
@@ -52,7 +47,7 @@ class Setup(NamedTuple):
     speed_limit_um_s
         Speed limits of X and Y, for their peaks; infinite where there is none.
     engine
-        What goes through its ticks: one compiled loop, or the same in Python with bodies that pymunk moves.
+        What goes through it: from event to event in one compiled loop, or by ticks with bodies that pymunk moves.
     """
 
     model: TableModel
@@ -69,30 +64,21 @@ class Setup(NamedTuple):
         return room
 
 
-def _engines(setup: Setup) -> list[Engine]:
-    """What goes through the ticks of X, and of Y."""
+def _runs(setup: Setup, ticks: Ticks) -> list[AxisRun]:
+    """Runs of X and of Y that have not begun."""
+    room, limits, origin = setup.room_um, setup.speed_limit_um_s, setup.origin_um
+    axes = [axis_of(setup.model, axis, room[:, axis], limits[axis]) for axis in Axis]
     if setup.engine == "compiled":
-        return [followed for _ in Axis]
-    x, y = setup.origin_um
-    bodies = Bodies(setup.model, setup.room_um, (float(x), float(y)))
-    return [InBodies(bodies, axis).followed for axis in Axis]
+        return [AxisRun(axes[axis], origin[axis], ticks, ByEvents(axes[axis])) for axis in Axis]
+    bodies = Bodies(setup.model, room, (float(origin[0]), float(origin[1])))
+    return [AxisRun(axes[axis], origin[axis], ticks, InBodies(bodies, axis, axes[axis], ticks)) for axis in Axis]
 
 
 class Following:
     """A table that follows pulses, from rest at the program's start; `ticks` tell how finely it is watched."""
 
     def __init__(self, setup: Setup, ticks: Ticks) -> None:
-        self._setup, self._ticks, room = setup, ticks, setup.room_um
-        engines = _engines(setup)
-        self._runs = [
-            AxisRun(
-                axis_of(setup.model, axis, ticks, room[:, axis], setup.speed_limit_um_s[axis]),
-                setup.origin_um[axis],
-                ticks,
-                engines[axis],
-            )
-            for axis in Axis
-        ]
+        self._setup, self._ticks, self._runs = setup, ticks, _runs(setup, ticks)
         self._slips = [SlipTally(ticks) for _ in Axis]
         self._trip: tuple[Axis, Slip] | None = None
         self._last_um = np.array([setup.origin_um], dtype=np.int64)
@@ -111,9 +97,9 @@ class Following:
         return self._trip[1].t_s if self._trip else np.inf
 
     @property
-    def ticks(self) -> int:
-        """Ticks that both axes have gone through; those of swings that were repeated do not count."""
-        return sum(run.state.noted.ticks for run in self._runs)
+    def courses(self) -> int:
+        """Courses that both axes have gone through; those of swings that were repeated do not count."""
+        return sum(run.state.noted.courses for run in self._runs)
 
     def take(self, pulses: Pulses) -> None:
         """Take the next pulses, in program coordinates, and let the table follow as far as they lead."""
@@ -148,7 +134,7 @@ class Following:
         first = min(Axis, key=lambda axis: self._runs[axis].state.tripped_s)
         tripped = self._runs[first].state
         if before and tripped.tripped_s < np.inf:
-            self._trip = first, Slip(tripped.tripped_s, tripped.slide.lag_um, tripped.slide.at_um)
+            self._trip = first, Slip(tripped.tripped_s, tripped.lag_um, tripped.at_um)
             self._runs = before
             self._let(until_s, pulses)
 

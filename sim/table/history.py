@@ -14,7 +14,7 @@ import numpy as np
 from controller.compiled.loops import compiled
 from parser.geometry.curves import Floats
 from sim.base.units import newtons
-from sim.table.drive import Drive, Slide
+from sim.table.drive import Drive
 from sim.table.ticks import Ticks
 
 
@@ -26,18 +26,8 @@ class Envelope(NamedTuple):
     mean: Floats
 
 
-class Values(NamedTuple):
-    """What an axis does in a tick: µm/s, µm/s², µm, µm, and the drive's force over the mass, µm/s²."""
-
-    velocity: float
-    acceleration: float
-    lag_um: float
-    error_um: float
-    force: float
-
-
-VALUES = len(Values._fields)
-"""Quantities in each bin."""
+VALUES = 5
+"""Quantities in each bin: velocity, acceleration, lag, following error, force over the mass; µm, s."""
 
 
 class Bins(NamedTuple):
@@ -57,37 +47,12 @@ class Bins(NamedTuple):
     area: Floats
 
 
-@compiled("(Bins, i8, f8, f8)", Bins)
-def _widened(bins: Bins, at: int, value: float, length_s: float) -> None:
-    """Take a value into a cell of the bins, for as long as it lasted in it."""
-    bins.low[at] = min(bins.low[at], value)
-    bins.high[at] = max(bins.high[at], value)
-    bins.area[at] += value * length_s
-
-
-@compiled("(Bins, i8, f8, Values)", Bins, Values)
-def add_values(bins: Bins, number: int, length_s: float, values: Values) -> None:
-    """Take values into a bin."""
-    at = number * VALUES
-    _widened(bins, at, values.velocity, length_s)
-    _widened(bins, at + 1, values.acceleration, length_s)
-    _widened(bins, at + 2, values.lag_um, length_s)
-    _widened(bins, at + 3, values.error_um, length_s)
-    _widened(bins, at + 4, values.force, length_s)
-
-
-@compiled("i8(Bins, i8, f8, f8, Values)", Bins, Values)
-def binned(bins: Bins, number: int, since_s: float, until_s: float, values: Values) -> int:
-    """Take values that lasted from a time to another into bins, none before a number; the bin where they ended."""
-    border_s, last = bins.border_s, len(bins.border_s) - 2
-    while number < last and border_s[number + 1] <= since_s:
-        number += 1
-    while number < last and border_s[number + 1] < until_s:
-        add_values(bins, number, border_s[number + 1] - since_s, values)
-        number += 1
-        since_s = border_s[number]
-    add_values(bins, number, min(until_s, border_s[last + 1]) - since_s, values)
-    return number
+@compiled("void(Bins, i8, f8, f8, f8)", Bins)
+def widened(bins: Bins, at: int, low: float, high: float, area: float) -> None:
+    """Take a range of values into a cell of the bins, and their integral over the time of it."""
+    bins.low[at] = min(bins.low[at], low)
+    bins.high[at] = max(bins.high[at], high)
+    bins.area[at] += area
 
 
 PEAKS = 3
@@ -105,66 +70,6 @@ class Limits(NamedTuple):
     lag_um: float
 
 
-SWINGS = 64
-"""Swings that are stored of an axis: a power of two."""
-SWING_TICKS = 128
-"""Most ticks of a swing that is stored: two and a half periods of ringing."""
-
-
-class Swings(NamedTuple):
-    """Swings of one axis, n of them: what a step from rest did until the slide rested again.
-
-    Attributes
-    ----------
-    lag_um, step_um
-        (n,), lag at which the slide stood, NaN where none is stored, and the step.
-    lasts_s, rest_lag_um, reach_um
-        (n,), time until the slide rests, its lag then, and the most that it was away from where it stood.
-    last_lag_um, last_force
-        (n,), lag of its last tick, and force over the mass, µm/s².
-    way_um
-        (n * SWING_TICKS,), of each: way of the slide by the end of each tick.
-    bins
-        Lowest, highest and integral of each of `Values`, as of n bins; the following error without what was lost.
-    peaks, peak_s, peak_way_um
-        (n * PEAKS,), of each: highest force, speed and lag, and the time and the way of each since it began.
-    """
-
-    lag_um: Floats
-    step_um: Floats
-    lasts_s: Floats
-    rest_lag_um: Floats
-    reach_um: Floats
-    last_lag_um: Floats
-    last_force: Floats
-    way_um: Floats
-    bins: Bins
-    peaks: Floats
-    peak_s: Floats
-    peak_way_um: Floats
-
-
-def no_swings() -> Swings:
-    """Room for swings, none of them stored."""
-    low, high, area = (np.zeros(SWINGS * VALUES) for _ in range(3))
-    step, lasts, rest_lag, reach, last_lag, last_force = (np.zeros(SWINGS) for _ in range(6))
-    peaks, peak_s, peak_way = (np.zeros(SWINGS * PEAKS) for _ in range(3))
-    return Swings(
-        lag_um=np.full(SWINGS, np.nan),
-        step_um=step,
-        lasts_s=lasts,
-        rest_lag_um=rest_lag,
-        reach_um=reach,
-        last_lag_um=last_lag,
-        last_force=last_force,
-        way_um=np.zeros(SWINGS * SWING_TICKS),
-        bins=Bins(np.zeros(SWINGS + 1), low, high, area),
-        peaks=peaks,
-        peak_s=peak_s,
-        peak_way_um=peak_way,
-    )
-
-
 class Record(NamedTuple):
     """What is kept of one axis.
 
@@ -178,8 +83,6 @@ class Record(NamedTuple):
         (n + 1,) and (n,), times of the samples, and infinity; place of the slide then.
     slip_s, slip_um, slip_at_um
         (s,), slips of a stepper: when, by how much, and where the slide was.
-    swings
-        Swings that it has made so far, which `sim.table.swings` repeats.
     """
 
     bins: Bins
@@ -189,7 +92,6 @@ class Record(NamedTuple):
     slip_s: Floats
     slip_um: Floats
     slip_at_um: Floats
-    swings: Swings
 
 
 class PeakPlace(NamedTuple):
@@ -199,35 +101,24 @@ class PeakPlace(NamedTuple):
     at_um: float
 
 
-@compiled("void(Record, i8, f8, f8, PeakPlace)", Record, PeakPlace)
-def take_peak(record: Record, number: int, value: float, limit: float, place: PeakPlace) -> None:
-    """Take a value for a peak, if it is the largest share of its limit; the largest of all where there is none.
+@compiled("b1(Record, i8, f8, f8)", Record)
+def is_peak(record: Record, number: int, value: float, limit: float) -> bool:
+    """Whether a value is the largest share of its limit so far; the largest of all where there is none.
 
     Of values alike but for rounding it is the first.
     """
+    of = limit if limit < math.inf else 1.0
+    return bool(value > record.peaks[number * PEAK_COLUMNS] * of * _BEYOND_ROUNDING)
+
+
+@compiled("void(Record, i8, f8, f8, PeakPlace)", Record, PeakPlace)
+def take_peak(record: Record, number: int, value: float, limit: float, place: PeakPlace) -> None:
+    """Take a value for a peak, if it is one."""
     at = number * PEAK_COLUMNS
     of = limit if limit < math.inf else 1.0
-    if value > record.peaks[at] * of * _BEYOND_ROUNDING:
+    if is_peak(record, number, value, limit):
         record.peaks[at], record.peaks[at + 1], record.peaks[at + 2] = value / of, value, limit
         record.peaks[at + 3], record.peaks[at + 4] = place.t_s, place.at_um
-
-
-@compiled("(Record, Values, Limits, Slide)", Record, Values, Limits, Slide)
-def peaked(record: Record, values: Values, limits: Limits, slide: Slide) -> None:
-    """Take a tick for the peaks; `slide` is that at its end."""
-    place = PeakPlace(slide.t_s, slide.at_um)
-    take_peak(record, 0, abs(values.force), limits.force, place)
-    take_peak(record, 1, abs(values.velocity), limits.speed, place)
-    take_peak(record, 2, abs(values.lag_um), limits.lag_um, place)
-
-
-@compiled("i8(Record, i8, Slide, f8, f8)", Record, Slide)
-def sampled(record: Record, number: int, slide: Slide, velocity: float, until_s: float) -> int:
-    """Note samples, from one on, while a slide goes on at a velocity until a time; the first one after that."""
-    while record.sample_s[number] <= until_s:
-        record.sampled_um[number] = slide.at_um + velocity * (record.sample_s[number] - slide.t_s)
-        number += 1
-    return number
 
 
 BINS: Final = 2000
@@ -236,7 +127,7 @@ LEAST_BINS: Final = 100
 SAMPLES_A_BIN: Final = 2
 """Samples of the trace in a bin, where a run has too few for `BINS`: between two samples the slide may only creep."""
 QUANTITIES: Final = ("velocity_um_s", "acceleration_um_s2", "lag_um", "following_error_um", "force_n")
-"""What is kept, in the order of `sim.table.history.Values`."""
+"""What is kept, in the order in which bins have it."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -1,7 +1,7 @@
 """The table at work: CPU time for a step, hours of cutting, a rapid run, a circular test, a trace's memory.
 
-The contour is 300 mm of lines and arcs, a rounded square in whole µm, in 40 mm steel. A smaller one is compared with
-its run in ticks of 0.1 ms, and through the reference engine.
+The contour is 300 mm of lines and arcs, a rounded square in whole µm, in 40 mm steel. A small square is run through the
+reference engine, too.
 """
 
 import argparse
@@ -12,8 +12,6 @@ import sys
 import time
 from typing import NamedTuple
 
-import numpy as np
-
 from controller.host.host import Host
 from controller.motion.limits import Feeds
 from parser.program import parse_program
@@ -23,7 +21,6 @@ from sim.setup.machine.machine import Machine, TableEngine, load_machine
 from sim.table.follow import Following
 from sim.table.motion import Motion, Moved, TableRun, driven, motion_of
 
-FINE_TICK_S = 1e-4
 THICKNESS_MM = 40.0
 RADIUS_UM = 5_000
 RAPID_UM_S = 10_000.0
@@ -73,11 +70,11 @@ def timed(run: Motion) -> tuple[float, Moved]:
 
 
 class Followed(NamedTuple):
-    """What a table took for the pulses of a motion: CPU seconds, at best, steps and ticks."""
+    """What a table took for the pulses of a motion: CPU seconds, at best, steps and courses."""
 
     cpu_s: float
     steps: int
-    ticks: int
+    courses: int
 
 
 def followed(run: Motion, times: int = 5) -> Followed:
@@ -90,7 +87,7 @@ def followed(run: Motion, times: int = 5) -> Followed:
             table.take(pulses)
         table.finish()
         taken.append(time.process_time() - began)
-    return Followed(min(taken), sum(len(pulses.t_s) for pulses in stretches), table.ticks)
+    return Followed(min(taken), sum(len(pulses.t_s) for pulses in stretches), table.courses)
 
 
 def step_lines() -> list[str]:
@@ -99,7 +96,7 @@ def step_lines() -> list[str]:
     small, large = runs[36.0], runs[324.0]
     slower = followed(small_in("pymunk"), 1).cpu_s / followed(small_in("compiled")).cpu_s
     return [
-        f"{'table, a step':<20}{large.cpu_s / large.steps * 1e9:.0f} ns, {large.ticks / large.steps:.2f} ticks a step",
+        f"{'table, a step':<20}{large.cpu_s / large.steps * 1e9:.0f} ns, {large.courses / large.steps:.3f} courses",
         f"{'table, growth':<20}exponent {math.log(large.cpu_s / small.cpu_s) / math.log(9.0):.2f} from 36 to 324 mm",
         f"{'table, in pymunk':<20}{slower:,.0f} times as long",
     ]
@@ -120,30 +117,12 @@ def circle_line() -> str:
     return f"{'circular test':<20}{time.process_time() - began:.2f} s of CPU for 20 mm at 6 mm/min"
 
 
-def fine(run: Motion) -> Motion:
-    """The same in ticks of 0.1 ms all the way, sampled at the same times."""
-    alike = dict.fromkeys(("step_tick_s", "steps_tick_s", "shaken_tick_s"), (FINE_TICK_S, FINE_TICK_S))
-    return run._replace(ticks=run.ticks._replace(**alike))
-
-
-def apart_um(one: Moved, other: Moved) -> float:
-    """Largest distance between two runs sampled at the same times."""
-    return float(np.hypot(*(one.trace.table_um - other.trace.table_um).T).max())
-
-
 def speed_line(name: str, run: Motion, least: float) -> str:
     """How much faster than real time a run is."""
     taken, moved = timed(run)
     simulated = float(moved.trace.t_s[-1])
     times = simulated / taken
     return f"{name:<20}{taken:.2f} s   {simulated:,.0f} s of it, {times:,.0f} times real time (asked for {least:,.0f})"
-
-
-def truth_line(name: str, run: Motion, what: str) -> str:
-    """How far a run is from the same in fine ticks."""
-    _, chosen = timed(run)
-    taken, whole = timed(fine(run))
-    return f"{name:<20}{apart_um(chosen, whole):.3f} µm from ticks of 0.1 ms ({what}, {taken:.0f} s)"
 
 
 def peak_mib(spacing_um: float, length_mm: float) -> float:
@@ -153,16 +132,14 @@ def peak_mib(spacing_um: float, length_mm: float) -> float:
     return float(done.stdout)
 
 
-def table_lines(length_mm: float, part_mm: float) -> list[str]:
+def table_lines(length_mm: float) -> list[str]:
     """All that is measured, in lines to print."""
     memory = ", ".join(f"{peak_mib(spacing, length_mm):.0f} MiB at {spacing:g} µm" for spacing in (5.0, 50.0))
     return [
         *step_lines(),
         circle_line(),
         speed_line("table, cutting", cutting(length_mm), 1000.0),
-        truth_line("table, cutting", cutting(part_mm), f"{part_mm:g} mm of {length_mm:g}"),
         speed_line("table, rapid", rapid(), 20.0),
-        truth_line("table, rapid", rapid(), "all of it"),
         f"{'table, memory':<20}{memory} of trace spacing",
     ]
 
@@ -170,7 +147,6 @@ def table_lines(length_mm: float, part_mm: float) -> list[str]:
 def add_options(options: argparse.ArgumentParser) -> None:
     """How much is run."""
     options.add_argument("--length", type=float, default=300.0, help="mm of contour")
-    options.add_argument("--part", type=float, default=36.0, help="mm of a smaller contour to compare with fine ticks")
 
 
 def main() -> None:
@@ -182,7 +158,7 @@ def main() -> None:
         timed(cutting(given.length, given.memory))
         print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0)
         return
-    print("\n".join(table_lines(given.length, given.part)))
+    print("\n".join(table_lines(given.length)))
 
 
 if __name__ == "__main__":

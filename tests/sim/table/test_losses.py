@@ -159,7 +159,7 @@ def test_a_servo_trips_at_its_limit_and_not_before() -> None:
 def test_after_a_trip_both_axes_come_to_rest_and_stay() -> None:
     drawn = draw(limited(5.0), *RUSH)
     (trip,) = drawn.moved.losses
-    assert abs(trip.amount_um) > 5.0
+    assert abs(trip.amount_um) == pytest.approx(5.0)
     after = drawn.at_um[drawn.t_s > trip.t_s + 0.05]
     assert np.ptp(after, axis=0) == pytest.approx([0.0, 0.0], abs=1e-3)  # µm
     assert np.hypot(*(after[-1] - (trip.x_um, trip.y_um))) < 200.0  # µm; it was to go 1500

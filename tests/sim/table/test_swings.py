@@ -1,4 +1,4 @@
-"""A swing that is repeated is the one that its ticks make; at the feeds of cutting nearly all are repeated."""
+"""A swing that is repeated is the one that its events make; at the feeds of cutting nearly all are repeated."""
 
 import math
 from typing import NamedTuple
@@ -6,18 +6,19 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 from depth import cases
-from table_runs import MODEL
+from table_runs import MODEL, even_ticks
 
 from controller.compiled.loops import compiled
 from parser.controller_words import Axis as AxisName
 from parser.geometry.curves import Floats
 from sim.setup.machine.machine import Motor, TableModel, load_machine
-from sim.table.axis import Axis, AxisDemand, State, due_s, recorded, ticked, waited
+from sim.table.axis import Axis, AxisDemand, Leg, State, next_leg, turned_to
 from sim.table.history import PEAK_COLUMNS, VALUES, Record
 from sim.table.losses import Slip
-from sim.table.run import AxisRun, Engine, axis_of
-from sim.table.swings import followed
-from sim.table.ticks import SHAKEN_RAD, STEP_RAD, STEPS_RAD, Ticks, rhythm
+from sim.table.recording import recorded
+from sim.table.run import AxisRun, ByEvents, axis_of
+from sim.table.swings import due_s, waited
+from sim.table.ticks import Ticks
 
 WITHIN_UM = 1e-4
 LOOSE_WITHIN_UM = 0.02
@@ -35,20 +36,31 @@ class Steps(NamedTuple):
 
 
 @compiled("(Axis, AxisDemand, State, Record)", Axis, AxisDemand, State, Record)
-def tick_by_tick(axis: Axis, demand: AxisDemand, state: State, record: Record) -> State:
+def event_by_event(axis: Axis, demand: AxisDemand, state: State, record: Record) -> State:
     """What `sim.table.swings.followed` does, without any swing."""
     while due_s(demand, state) < demand.until_s and state.noted.slip < len(record.slip_s):
         if state.tripped_s < demand.braked_s:
             break
-        until_s = due_s(demand, state)
-        now = waited(state, until_s) if until_s > state.slide.t_s else ticked(axis, demand, state)
-        state = recorded(axis, demand, state, now, record)
+        if state.rests:
+            state = recorded(axis, demand, state, waited(state, due_s(demand, state)), record)
+            begins = Leg(state.course, state.course, 0.0, turned_to(axis, demand, state))
+            state = recorded(axis, demand, state, begins, record)
+        else:
+            state = recorded(axis, demand, state, next_leg(axis, demand, state), record)
     return state
 
 
-def ran(model: TableModel, steps: Steps, ticks: Ticks, engine: Engine) -> tuple[AxisRun, list[Slip]]:
+class Plainly(ByEvents):
+    """An axis that goes from event to event and repeats no swing."""
+
+    def followed(self, demand: AxisDemand, state: State, record: Record) -> State:
+        return event_by_event(self._axis, demand, state, record)
+
+
+def ran(model: TableModel, steps: Steps, ticks: Ticks, engine: type[ByEvents]) -> tuple[AxisRun, list[Slip]]:
     """X after its pulses, which come in two parts, and its slips."""
-    run = AxisRun(axis_of(model, AxisName.X, ticks, np.array([-150.0, 1e5]), 1e4), 0, ticks, engine)
+    axis = axis_of(model, AxisName.X, np.array([-150.0, 1e5]), 1e4)
+    run = AxisRun(axis, 0, ticks, engine(axis))
     slips, half = [], len(steps.t_s) // 2
     for part in (slice(None, half), slice(half, None)):
         run.take(steps.t_s[part], steps.place_um[part])
@@ -58,12 +70,9 @@ def ran(model: TableModel, steps: Steps, ticks: Ticks, engine: Engine) -> tuple[
     return run, slips
 
 
-def ticks_of(model: TableModel, until_s: float, sample_s: float) -> Ticks:
-    """The ticks that a run would choose, with a shake in their midst."""
-    beats, t_s = rhythm(model), np.arange(sample_s, until_s, sample_s)
-    shaken = np.array([[until_s * 0.4, until_s * 0.45]])
-    phases = (beats.tick_s(phase) for phase in (STEP_RAD, STEPS_RAD, SHAKEN_RAD))
-    return Ticks(np.append(t_s, until_s), np.zeros(len(t_s) + 1, dtype=np.int64), shaken, *phases)
+def ticks_of(until_s: float, sample_s: float) -> Ticks:
+    """Samples of a run; its ticks are not looked at."""
+    return even_ticks(until_s, sample_s)
 
 
 def random_case(rng: np.random.Generator) -> tuple[TableModel, Steps]:
@@ -94,12 +103,12 @@ def random_case(rng: np.random.Generator) -> tuple[TableModel, Steps]:
 
 @pytest.mark.deep
 @pytest.mark.parametrize("seed", cases(15, 4000))
-def test_an_axis_does_what_its_ticks_do(seed: int) -> None:
+def test_an_axis_does_what_its_events_do(seed: int) -> None:
     rng = np.random.default_rng(seed)
     model, steps = random_case(rng)
-    ticks = ticks_of(model, steps.until_s, float(rng.choice([1e-3, 0.013, 0.2])))
-    (ours, our_slips), (plain, slips) = (ran(model, steps, ticks, engine) for engine in (followed, tick_by_tick))
-    assert ours.state.noted[:-1] == plain.state.noted[:-1], "but for the ticks"
+    ticks = ticks_of(steps.until_s, float(rng.choice([1e-3, 0.013, 0.2])))
+    (ours, our_slips), (plain, slips) = (ran(model, steps, ticks, engine) for engine in (ByEvents, Plainly))
+    assert ours.state.noted[:-1] == plain.state.noted[:-1], "but for the courses"
     assert ours.state.tripped_s == pytest.approx(plain.state.tripped_s, abs=1e-9)
     within_um = LOOSE_WITHIN_UM if slips or model.backlash_um[0] else WITHIN_UM
     assert [slip.amount_um for slip in our_slips] == [slip.amount_um for slip in slips]
@@ -116,22 +125,12 @@ def test_an_axis_does_what_its_ticks_do(seed: int) -> None:
 
 @pytest.mark.parametrize("name", ["dk7732", "dk7740", "dk7750"])
 def test_at_the_feeds_of_cutting_nearly_all_swings_are_repeated(name: str) -> None:
-    """In 40 mm steel a step comes every 20 ms: by ticks each would take 20 of them and more."""
+    """In 40 mm steel a step comes every 20 ms: event by event each takes three courses."""
     model = load_machine(name).table
     number = np.arange(1.0, 5001.0)
     t_s = 0.02 * number
     steps = Steps(t_s, np.where(number < 3000.0, number, 6000.0 - number), 101.0)
-    ticks = Ticks(np.array([101.0]), np.zeros(1, dtype=np.int64), np.empty((0, 2)), *ticks_of(model, 101.0, 1.0)[3:])
-    ours, plain = (ran(model, steps, ticks, engine)[0].state.noted.ticks for engine in (followed, tick_by_tick))
-    assert plain > 10 * len(t_s)
-    assert ours < 0.5 * len(t_s)
-
-
-def test_shakes_that_pass_while_an_axis_stands_are_left_behind() -> None:
-    """Else each later swing would look through all of them again."""
-    model = load_machine("dk7740").table
-    steps = Steps(np.append(0.01 + 0.02 * np.arange(50.0), 3.01), np.arange(1.0, 52.0), 5.0)
-    shaken = np.stack([np.arange(1.1, 2.0, 0.02), np.arange(1.11, 2.01, 0.02)], axis=1)
-    ticks = ticks_of(model, steps.until_s, 5.0)._replace(shaken_s=shaken)
-    runs = [ran(model, steps, ticks, engine)[0].state.noted for engine in (followed, tick_by_tick)]
-    assert [noted.shake for noted in runs] == [2 * len(shaken)] * 2
+    ticks = Ticks(np.array([101.0]), np.zeros(1, dtype=np.int64), np.empty((0, 2)), *[(1.0, 1.0)] * 3)
+    ours, plain = (ran(model, steps, ticks, engine)[0].state.noted.courses for engine in (ByEvents, Plainly))
+    assert plain > 2.9 * len(t_s)
+    assert ours < 0.1 * len(t_s)

@@ -12,7 +12,8 @@ from table_runs import MODEL, MOVED_KG, STEPPER, TICK_S, draw, even_ticks, pulse
 from controller.stepping.pulses import Pulses
 from parser.geometry.curves import Floats
 from sim.table import follow
-from sim.table.drive import Kick, drives_of, kicked
+from sim.table.drive import drives_of
+from sim.table.kicks import Kick, kicked
 from sim.table.rating import motors_um as turned_um
 
 FRICTION_N, VISCOUS_N_S_MM, BACKLASH_UM = (30.0, 20.0), (2.0, 1.5), (3.0, 2.0)

@@ -1,0 +1,260 @@
+"""What a course puts into the record of an axis: lowest, highest and mean of each quantity, peaks, and samples.
+
+Each is worked out from the closed form of the course: extremes lie at its ends, or where a slope is 0.
+"""
+
+import math
+from typing import NamedTuple
+
+from controller.compiled.loops import compiled
+from sim.table.axis import Axis, AxisDemand, Leg, Noted, State, bounds_of
+from sim.table.course import (
+    Body,
+    Course,
+    Form,
+    Lagging,
+    acceleration_of,
+    is_driven,
+    lagging_of,
+    moved,
+    rest_lag,
+    slope_in,
+    value_in,
+    wave_in,
+)
+from sim.table.forms import Oscillation, coasting, first_zero, pair_at, slope_of, value_of
+from sim.table.history import VALUES, Bins, Limits, PeakPlace, Record, is_peak, take_peak, widened
+
+
+class Range(NamedTuple):
+    """Lowest and highest of a quantity in a course, and after how long each comes, s."""
+
+    low: float
+    high: float
+    low_s: float
+    high_s: float
+
+
+class Ranges(NamedTuple):
+    """Ranges of velocity, acceleration, lag and force in a course."""
+
+    velocity: Range
+    acceleration: Range
+    lag_um: Range
+    force: Range
+
+
+@compiled("(f8, f8, f8)", Range)
+def _between(first: float, last: float, after_s: float) -> Range:
+    """Range of what goes one way from its first to its last value."""
+    return Range(first, last, 0.0, after_s) if first < last else Range(last, first, after_s, 0.0)
+
+
+@compiled("(Range, f8, f8)", Range)
+def _and(range_: Range, value: float, after_s: float) -> Range:
+    """A range that a value is taken into."""
+    if value < range_.low:
+        return Range(value, range_.high, after_s, range_.high_s)
+    return Range(range_.low, value, range_.low_s, after_s) if value > range_.high else range_
+
+
+class Both(NamedTuple):
+    """How a driven slide lags at both ends of a course, and how long that lasts, s."""
+
+    first: Lagging
+    last: Lagging
+    after_s: float
+
+
+@compiled("(Oscillation, Form, Both)", Oscillation, Form, Both, Range)
+def _range_of(swings: Oscillation, form: Form, both: Both) -> Range:
+    """Range of a wave: it decays, so that no extreme behind the first two is farther out."""
+    after_s = both.after_s
+    found = _between(value_in(form, both.first), value_in(form, both.last), after_s)
+    once = swings.creeps or swings.rate * after_s < math.pi
+    if once and slope_in(swings, form, both.first) * slope_in(swings, form, both.last) >= 0.0:
+        return found
+    wave = wave_in(swings, form, both.first)
+    turns_s = first_zero(swings, slope_of(swings, wave))
+    for _ in range(2):
+        if turns_s < after_s:
+            found = _and(found, value_of(wave, pair_at(swings, turns_s)), turns_s)
+        turns_s += math.inf if swings.creeps else math.pi / swings.rate
+    return found
+
+
+class Part(NamedTuple):
+    """A part of a course: as it begins and as it ends, when it begins, how long it lasts, and its following error."""
+
+    course: Course
+    last: Course
+    t_s: float
+    after_s: float
+    error_um: float
+
+
+@compiled("(Body, Part)", Body, Part, Ranges, inlined=False)
+def _ranges(body: Body, part: Part) -> Ranges:
+    """Ranges in a part of a course."""
+    drive, swings, course, last, after_s = body.drive, body.swings, part.course, part.last, part.after_s
+    if is_driven(course):
+        both = Both(lagging_of(body, course), lagging_of(body, last), after_s)
+        rest_um = rest_lag(body, course)
+        even = drive.spring * (rest_um - course.hold.side * drive.slack_um)
+        speed = _range_of(swings, Form(course.motor_um_s, 0.0, -1.0), both)
+        bend = _range_of(swings, Form(0.0, swings.spring, swings.damping), both)
+        lag = _range_of(swings, Form(rest_um, 1.0, 0.0), both)
+        force = _range_of(swings, Form(even, drive.spring, drive.damper), both)
+        return Ranges(speed, bend, lag, force)
+    velocity = _between(course.velocity, last.velocity, after_s)
+    first, then = acceleration_of(body, course), acceleration_of(body, last)
+    lag = _between(course.lag_um, last.lag_um, after_s)
+    lag_um_s, last_um_s = course.motor_um_s - course.velocity, course.motor_um_s - last.velocity
+    if lag_um_s * last_um_s < 0.0:
+        turns_s = _even_s(body, course, first)
+        lag = _and(lag, moved(body, course, turns_s).lag_um, turns_s)
+    return Ranges(velocity, _between(first, then, after_s), lag, _between(course.force, last.force, after_s))
+
+
+@compiled("f8(Body, Course, f8)", Body, Course)
+def _even_s(body: Body, course: Course, acceleration: float) -> float:
+    """When a slide that coasts is as fast as its motor."""
+    once = (course.motor_um_s - course.velocity) / acceleration
+    share = body.drive.viscous * once
+    return -math.log1p(-share) / body.drive.viscous if share > 0.0 else once
+
+
+@compiled("f8(Body, Part)", Body, Part)
+def _lag_area(body: Body, part: Part) -> float:
+    """Integral of the lag over a part of a course, µm s."""
+    course, last, after_s = part.course, part.last, part.after_s
+    evenly = course.lag_um * after_s + course.motor_um_s * after_s**2 / 2.0
+    if is_driven(course):
+        swings = body.swings
+        pulled = course.velocity - last.velocity + swings.damping * (last.lag_um - course.lag_um)
+        return rest_lag(body, course) * after_s - pulled / swings.spring
+    if course.hold.way == 0:
+        return evenly
+    bend = acceleration_of(body, course) * coasting(body.drive.viscous, after_s).thrice
+    return evenly - course.velocity * after_s**2 / 2.0 - bend
+
+
+@compiled("(Body, Part, Bins, i8)", Body, Part, Bins, Ranges, inlined=False)
+def recorded_part(body: Body, part: Part, bins: Bins, number: int) -> Ranges:
+    """Take a part of a course into a bin; its ranges."""
+    course, last, _, after_s, error_um = part
+    ranges, lag_area, at = _ranges(body, part), _lag_area(body, part), number * VALUES
+    way_um, gained = last.at_um - course.at_um, last.velocity - course.velocity
+    widened(bins, at, ranges.velocity.low, ranges.velocity.high, way_um)
+    widened(bins, at + 1, ranges.acceleration.low, ranges.acceleration.high, gained)
+    widened(bins, at + 2, ranges.lag_um.low, ranges.lag_um.high, lag_area)
+    last_um = error_um - way_um
+    passed = course.motor_um_s * after_s**2 / 2.0 + course.lag_um * after_s - lag_area
+    widened(bins, at + 3, min(error_um, last_um), max(error_um, last_um), error_um * after_s - passed)
+    if course.hold.way == 0:
+        pushed = (course.force + last.force) / 2.0 * after_s
+    else:
+        pushed = gained + body.drive.viscous * way_um + course.hold.way * body.drive.friction * after_s
+    widened(bins, at + 4, ranges.force.low, ranges.force.high, pushed)
+    return ranges
+
+
+@compiled("(Range,)", Range)
+def _farthest(range_: Range) -> tuple[float, float]:
+    """The value of a range that is farthest from 0, without its sign, and when it comes."""
+    if -range_.low > range_.high:
+        return -range_.low, range_.low_s
+    return range_.high, range_.high_s
+
+
+class Peaked(NamedTuple):
+    """Highest force, speed and lag in a course, without their signs, and after how long each comes."""
+
+    force: float
+    force_s: float
+    speed: float
+    speed_s: float
+    lag_um: float
+    lag_s: float
+
+
+@compiled("(Ranges,)", Ranges, Peaked)
+def peaked_of(ranges: Ranges) -> Peaked:
+    """Highest force, speed and lag of the ranges of a course."""
+    force, force_s = _farthest(ranges.force)
+    speed, speed_s = _farthest(ranges.velocity)
+    lag_um, lag_s = _farthest(ranges.lag_um)
+    return Peaked(force, force_s, speed, speed_s, lag_um, lag_s)
+
+
+@compiled("(Axis, AxisDemand, State)", Axis, AxisDemand, State, Limits)
+def limits_of(axis: Axis, demand: AxisDemand, state: State) -> Limits:
+    """Limits of an axis at its step rate."""
+    bounds = bounds_of(axis, demand, state.rating)
+    return Limits(bounds.force, axis.speed_limit_um_s, bounds.lag_um)
+
+
+@compiled("void(Body, Part, Peaked, Limits, Record)", Body, Part, Peaked, Limits, Record)
+def _take_peaks(body: Body, part: Part, peaked: Peaked, limits: Limits, record: Record) -> None:
+    """Take the peaks of a part of a course; where each comes is worked out for new ones alone."""
+    course, t_s = part.course, part.t_s
+    if is_peak(record, 0, peaked.force, limits.force):
+        place = PeakPlace(t_s + peaked.force_s, moved(body, course, peaked.force_s).at_um)
+        take_peak(record, 0, peaked.force, limits.force, place)
+    if is_peak(record, 1, peaked.speed, limits.speed):
+        place = PeakPlace(t_s + peaked.speed_s, moved(body, course, peaked.speed_s).at_um)
+        take_peak(record, 1, peaked.speed, limits.speed, place)
+    if is_peak(record, 2, peaked.lag_um, limits.lag_um):
+        place = PeakPlace(t_s + peaked.lag_s, moved(body, course, peaked.lag_s).at_um)
+        take_peak(record, 2, peaked.lag_um, limits.lag_um, place)
+
+
+@compiled("i8(Bins, i8, f8)", Bins)
+def bin_at(bins: Bins, number: int, t_s: float) -> int:
+    """The bin of a time, none before a number."""
+    while number < len(bins.border_s) - 2 and bins.border_s[number + 1] <= t_s:
+        number += 1
+    return number
+
+
+@compiled("i8(Body, Part, Record, i8)", Body, Part, Record)
+def _sampled(body: Body, part: Part, record: Record, number: int) -> int:
+    """Note the samples of a course, from one on; the first one after its end."""
+    while record.sample_s[number] <= part.t_s + part.after_s:
+        record.sampled_um[number] = moved(body, part.course, record.sample_s[number] - part.t_s).at_um
+        number += 1
+    return number
+
+
+@compiled("i8(Body, Part, Limits, Record, i8)", Body, Part, Limits, Record)
+def _binned(body: Body, whole: Part, limits: Limits, record: Record, number: int) -> int:
+    """Take a course into bins and peaks; the bin where it ended."""
+    border_s, (course, _, t_s, _, error_um) = record.bins.border_s, whole
+    left_s = min(whole.after_s, border_s[len(border_s) - 1] - t_s)
+    while left_s > 0.0:
+        number = bin_at(record.bins, number, t_s)
+        part_s = left_s if number == len(border_s) - 2 else min(left_s, border_s[number + 1] - t_s)
+        last = whole.last if part_s == whole.after_s else moved(body, course, part_s)
+        part = Part(course, last, t_s, part_s, error_um)
+        _take_peaks(body, part, peaked_of(recorded_part(body, part, record.bins, number)), limits, record)
+        error_um -= last.at_um - course.at_um
+        course, t_s, left_s = last, t_s + part_s, left_s - part_s
+    return number
+
+
+@compiled("(Axis, AxisDemand, State, Leg, Record)", Axis, AxisDemand, State, Leg, Record, inlined=False)
+def recorded(axis: Axis, demand: AxisDemand, before: State, leg: Leg, record: Record) -> State:
+    """Record what an axis did in a leg; its state after it, with how far the record is."""
+    now, noted, course = leg.state, before.noted, leg.course
+    error_um = demand.train.place_um[noted.commanded] - course.at_um
+    whole = Part(course, leg.last, before.t_s, now.t_s - before.t_s, error_um)
+    sample = _sampled(axis.body, whole, record, noted.sample)
+    number, slip = noted.bin, noted.slip
+    if before.t_s < demand.braked_s and leg.after_s > 0.0:
+        number = _binned(axis.body, whole, limits_of(axis, demand, before), record, number)
+    slip_um = now.lost_um - before.lost_um
+    if slip_um != 0.0:
+        record.slip_s[slip], record.slip_um[slip], record.slip_at_um[slip] = now.t_s, slip_um, now.course.at_um
+        slip += 1
+    noted = Noted(sample, number, slip, now.noted.commanded, now.noted.courses)
+    return State(now.t_s, now.course, now.lost_um, now.rests, now.turn, now.rating, noted, now.tripped_s)
