@@ -36,7 +36,6 @@ class Source(Protocol):
     function: Callable[..., Any]
     signature: str
     tuples: tuple[type, ...]
-    inlined: bool
 
     def __hash__(self) -> int:
         """By which it is found again."""
@@ -92,7 +91,7 @@ def _type_of_loop(loop: Source, context: object) -> types.Type:
 @cache
 def _dispatcher(loop: Source) -> Any:
     """A loop as numba has it, compiled."""
-    inlined = {"forceinline": True} if loop.tuples and loop.inlined else {}
+    inlined = {"forceinline": True} if loop.tuples else {}
     return numba.njit(_signature(loop.signature, loop.tuples), **_OPTIONS, **inlined)(loop.function)
 
 

@@ -34,14 +34,12 @@ class Loop:
     ----------
     function
         What it is made of.
-    signature, tuples, inlined
+    signature, tuples
         As `compiled` has them.
     """
 
-    def __init__(
-        self, function: Callable[..., Any], signature: str, tuples: tuple[type, ...], *, inlined: bool
-    ) -> None:
-        self.function, self.signature, self.tuples, self.inlined = function, signature, tuples, inlined
+    def __init__(self, function: Callable[..., Any], signature: str, tuples: tuple[type, ...]) -> None:
+        self.function, self.signature, self.tuples = function, signature, tuples
         self._code: Callable[..., Any] | None = None
         update_wrapper(self, function)
 
@@ -84,21 +82,20 @@ def _made_of(loop: Loop) -> "MachineCode":
     return compiler.made_of(loop)
 
 
-def compiled(signature: str, *tuples: type, inlined: bool = True) -> Callable[[Function], Function]:
+def compiled(signature: str, *tuples: type) -> Callable[[Function], Function]:
     """Compile a function for a signature in numba's words, such as ``"f8(f8[::1], i8)"``, when it is first called.
 
     A signature may also name NamedTuples, which are given as `tuples`: ``"(Drive, f8)"``. Their fields are floats,
     ints, bools, arrays (n,) of float64 or int64, and other such tuples. Such a function becomes a part of the loops
-    that call it, so that no tuple is handed over; one that is large stays by itself where `inlined` is False. Without a
-    result before its bracket, the result is what the function makes; where that is a NamedTuple, the function's
-    annotation names it.
+    that call it. Without a result before its bracket, the result is what the function makes; where that is a
+    NamedTuple, the function's annotation names it.
 
     Its code stays in the user's cache folder, or where the environment's ``NUMBA_CACHE_DIR`` says; where neither can
     be written, it is compiled again in each process. Division by zero gives infinities and NaN, as in numpy.
     """
 
     def compiled_loop(function: Function) -> Function:
-        return cast("Function", Loop(function, signature, tuples, inlined=inlined))
+        return cast("Function", Loop(function, signature, tuples))
 
     return compiled_loop
 

@@ -162,7 +162,7 @@ def _braked(course: Course) -> Course:
     return Course(course.at_um, velocity, course.lag_um, course.motor_um_s, Hold(0, LOOSE, way), 0.0, True)
 
 
-@compiled("(Axis, AxisDemand, State)", Axis, AxisDemand, State, inlined=False)
+@compiled("(Axis, AxisDemand, State)", Axis, AxisDemand, State)
 def turned_to(axis: Axis, demand: AxisDemand, state: State) -> State:
     """An axis whose motor has begun and ended the steps that are due, and what it can do is known for now."""
     t_s, course, noted = state.t_s, state.course, state.noted
@@ -210,7 +210,7 @@ def _stilled(axis: Axis, state: State) -> State:
     return State(state.t_s, course, state.lost_um, rests, state.turn, state.rating, state.noted, state.tripped_s)
 
 
-@compiled("(Axis, AxisDemand, State)", Axis, AxisDemand, State, inlined=False)
+@compiled("(Axis, AxisDemand, State)", Axis, AxisDemand, State)
 def next_leg(axis: Axis, demand: AxisDemand, state: State) -> Leg:
     """What an axis does up to its next event, and its state after that.
 

@@ -111,7 +111,7 @@ def first_zero(swings: Oscillation, wave: Wave) -> float:
     return (phase if phase > 0.0 else phase + math.pi) / swings.rate
 
 
-@compiled("f8(Oscillation, Wave, f8, f8)", Oscillation, Wave, inlined=False)
+@compiled("f8(Oscillation, Wave, f8, f8)", Oscillation, Wave)
 def _rise_in(swings: Oscillation, wave: Wave, low_s: float, high_s: float) -> float:
     """Where a wave passes 0 in a time in which it rises from below to above it: Newton's steps within a bracket."""
     slope = slope_of(swings, wave)
@@ -216,7 +216,7 @@ class Coast(NamedTuple):
     bend: float
 
 
-@compiled("f8(f8, Coast, f8, f8)", Coast, inlined=False)
+@compiled("f8(f8, Coast, f8, f8)", Coast)
 def coast_rises(viscous: float, coast: Coast, until_s: float, least: float) -> float:
     """First time at which a quantity that begins below 0 rises above it, and beyond `least` at last.
 

@@ -93,7 +93,7 @@ class Part(NamedTuple):
     error_um: float
 
 
-@compiled("(Body, Part)", Body, Part, Ranges, inlined=False)
+@compiled("(Body, Part)", Body, Part, Ranges)
 def _ranges(body: Body, part: Part) -> Ranges:
     """Ranges in a part of a course."""
     drive, swings, course, last, after_s = body.drive, body.swings, part.course, part.last, part.after_s
@@ -139,7 +139,7 @@ def _lag_area(body: Body, part: Part) -> float:
     return evenly - course.velocity * after_s**2 / 2.0 - bend
 
 
-@compiled("(Body, Part, Bins, i8)", Body, Part, Bins, Ranges, inlined=False)
+@compiled("(Body, Part, Bins, i8)", Body, Part, Bins, Ranges)
 def recorded_part(body: Body, part: Part, bins: Bins, number: int) -> Ranges:
     """Take a part of a course into a bin; its ranges."""
     course, last, _, after_s, error_um = part
@@ -226,14 +226,30 @@ def _sampled(body: Body, part: Part, record: Record, number: int) -> int:
     return number
 
 
+@compiled("void(Bins, i8, Course, f8, f8)", Bins, Course)
+def _record_rest(bins: Bins, number: int, course: Course, after_s: float, error_um: float) -> None:
+    """Take a rest into a bin. It has no peak: what stands was as far off as the course before it came to its end."""
+    at, lag_um, force = number * VALUES, course.lag_um, course.force
+    widened(bins, at, 0.0, 0.0, 0.0)
+    widened(bins, at + 1, 0.0, 0.0, 0.0)
+    widened(bins, at + 2, lag_um, lag_um, lag_um * after_s)
+    widened(bins, at + 3, error_um, error_um, error_um * after_s)
+    widened(bins, at + 4, force, force, force * after_s)
+
+
 @compiled("i8(Body, Part, Limits, Record, i8)", Body, Part, Limits, Record)
 def _binned(body: Body, whole: Part, limits: Limits, record: Record, number: int) -> int:
     """Take a course into bins and peaks; the bin where it ended."""
     border_s, (course, _, t_s, _, error_um) = record.bins.border_s, whole
     left_s = min(whole.after_s, border_s[len(border_s) - 1] - t_s)
+    stands = course.hold.way == 0 and course.motor_um_s == 0.0
     while left_s > 0.0:
         number = bin_at(record.bins, number, t_s)
         part_s = left_s if number == len(border_s) - 2 else min(left_s, border_s[number + 1] - t_s)
+        if stands:
+            _record_rest(record.bins, number, course, part_s, error_um)
+            t_s, left_s = t_s + part_s, left_s - part_s
+            continue
         last = whole.last if part_s == whole.after_s else moved(body, course, part_s)
         part = Part(course, last, t_s, part_s, error_um)
         _take_peaks(body, part, peaked_of(recorded_part(body, part, record.bins, number)), limits, record)
@@ -242,7 +258,7 @@ def _binned(body: Body, whole: Part, limits: Limits, record: Record, number: int
     return number
 
 
-@compiled("(Axis, AxisDemand, State, Leg, Record)", Axis, AxisDemand, State, Leg, Record, inlined=False)
+@compiled("(Axis, AxisDemand, State, Leg, Record)", Axis, AxisDemand, State, Leg, Record)
 def recorded(axis: Axis, demand: AxisDemand, before: State, leg: Leg, record: Record) -> State:
     """Record what an axis did in a leg; its state after it, with how far the record is."""
     now, noted, course = leg.state, before.noted, leg.course

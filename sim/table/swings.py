@@ -109,7 +109,7 @@ def _repeats(task: AxisTask, state: State, swing: Swing) -> bool:
     return bool(alone and within and strong)
 
 
-@compiled("i8(AxisTask, State, Swing)", AxisTask, State, Swing, inlined=False)
+@compiled("i8(AxisTask, State, Swing)", AxisTask, State, Swing)
 def _sampled(task: AxisTask, first: State, swing: Swing) -> int:
     """Note the samples that come in a stored swing; the first one after that."""
     record, swings, number = task.record, task.swings, first.noted.sample
@@ -177,7 +177,7 @@ def _clear(swings: Swings, swing: Swing) -> None:
         swings.peaks[at] = -1.0
 
 
-@compiled("void(AxisTask, State, State, Leg, Swing)", AxisTask, State, Leg, Swing, inlined=False)
+@compiled("void(AxisTask, State, State, Leg, Swing)", AxisTask, State, Leg, Swing)
 def _store_leg(task: AxisTask, first: State, before: State, leg: Leg, swing: Swing) -> None:
     """Store what an axis does in a course of a swing that began in its first state."""
     body, swings, slot, course = task.axis.body, task.swings, swing.slot, leg.course
@@ -222,7 +222,7 @@ def _awoken(task: AxisTask, state: State) -> State:
     return recorded(task.axis, task.demand, state, begins, task.record)
 
 
-@compiled("(AxisTask, State, Swing)", AxisTask, State, Swing, inlined=False)
+@compiled("(AxisTask, State, Swing)", AxisTask, State, Swing)
 def _followed_swing(task: AxisTask, first: State, swing: Swing) -> State:
     """An axis after the courses of a swing, which is stored once it rests; before the course that is disturbed."""
     _clear(task.swings, swing)
@@ -238,7 +238,7 @@ def _followed_swing(task: AxisTask, first: State, swing: Swing) -> State:
     return state
 
 
-@compiled("void(AxisTask, State, State, Swing)", AxisTask, State, Swing, inlined=False)
+@compiled("void(AxisTask, State, State, Swing)", AxisTask, State, Swing)
 def _record_swing(task: AxisTask, first: State, now: State, swing: Swing) -> None:
     """Record a stored swing."""
     bins, swings, lost_um = task.record.bins, task.swings, first.lost_um
@@ -254,7 +254,7 @@ def _record_swing(task: AxisTask, first: State, now: State, swing: Swing) -> Non
         take_peak(task.record, number, swings.peaks[at], limit, place)
 
 
-@compiled("(AxisTask, State)", AxisTask, State, inlined=False)
+@compiled("(AxisTask, State)", AxisTask, State)
 def _swung(task: AxisTask, state: State) -> State:
     """An axis that has rested until a step is due, after the swing of that step, or after its beginning."""
     rating = rated(task.axis.strength, task.demand.train, state.rating, state.t_s)
