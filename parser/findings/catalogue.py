@@ -146,8 +146,9 @@ class _Filler(string.Formatter):
 
     ``block`` is the number of a block, which is called as the listing calls it.
     ``aside`` is a text in parentheses, ``or`` another choice, both nothing where there is none; ``pass`` the number of
-    a pass, ``more`` how many others there are, both nothing for 0. ``known`` is a value, or the word for none;
-    ``span`` is a range, two ends with `TO` between of which one may be missing, or a value that is no range.
+    a pass, ``more`` how many others there are, both nothing for 0; ``chance`` a range that hangs on chance, nothing
+    where there is none. ``known`` is a value, or the word for none; ``span`` is a range, two ends with `TO` between of
+    which one may be missing, or a value that is no range.
     """
 
     def __init__(self, language: Language, names: Mapping[int, str]) -> None:
@@ -165,6 +166,7 @@ class _Filler(string.Formatter):
             "aside": lambda text: self._joined("aside", text) if text else "",
             "or": lambda text: self._joined("or", text) if text else "",
             "pass": lambda number: self._joined("pass", str(number)) if number else "",
+            "chance": lambda ends: self._joined("chance", *str(ends).split(TO)) if ends else "",
             "more": lambda number: self._joined("more", str(number)) if number else "",
         }
         return own[format_spec](value) if format_spec in own else str(super().format_field(value, format_spec))

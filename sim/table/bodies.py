@@ -341,3 +341,8 @@ class InBodies:
     def copy(self) -> "InBodies":
         """What goes on from here by itself: bodies stand wherever a state says."""
         return self
+
+    def moved_by(self, state: BodyState, by_um: float) -> BodyState:
+        """A state whose slide stands so far off, and of which nothing is recorded yet."""
+        slide = state.slide._replace(at_um=state.slide.at_um + by_um, lag_um=state.slide.lag_um - by_um)
+        return state._replace(slide=slide, noted=state.noted._replace(sample=0, bin=0))

@@ -18,11 +18,11 @@ from sim.table.losses import (
     Loss,
     Peak,
     Slip,
-    SlipTally,
     in_order,
     peaks_of,
     trip_loss,
 )
+from sim.table.neighbours import Losing
 from sim.table.run import AxisRun, ByEvents, axis_of
 from sim.table.ticks import Ticks
 from sim.table.trace import Trace
@@ -78,13 +78,18 @@ class Following:
     """A table that follows pulses, from rest at the program's start; `ticks` tell how finely it is watched."""
 
     def __init__(self, setup: Setup, ticks: Ticks) -> None:
-        self._setup, self._ticks, self._runs = setup, ticks, _runs(setup, ticks)
-        self._slips = [SlipTally(ticks) for _ in Axis]
+        self._setup, self._ticks = setup, ticks
+        self._axes = [Losing(run, ticks) for run in _runs(setup, ticks)]
         self._trip: tuple[Axis, Slip] | None = None
         self._last_um = np.array([setup.origin_um], dtype=np.int64)
         self._known_s = self._followed_s = 0.0
         self._commanded_um = np.zeros((len(ticks.t_s), 2))
         self._commanded = 0
+
+    @property
+    def _runs(self) -> list[AxisRun]:
+        """Runs of X and of Y."""
+        return [axis.run for axis in self._axes]
 
     @property
     def followed_s(self) -> float:
@@ -104,9 +109,9 @@ class Following:
     def take(self, pulses: Pulses) -> None:
         """Take the next pulses, in program coordinates, and let the table follow as far as they lead."""
         places = np.concatenate([self._last_um, np.stack([pulses.x_um, pulses.y_um], axis=1)])
-        for run, column in zip(self._runs, places.T, strict=True):
+        for axis, column in zip(self._axes, places.T, strict=True):
             steps = np.flatnonzero(np.diff(column))
-            run.take(pulses.t_s[steps], column[steps + 1])
+            axis.take(pulses.t_s[steps], column[steps + 1])
         self._last_um, self._known_s = places[-1:], float(pulses.t_s[-1])
         self._sample(pulses.t_s, places)
         self._follow(self._known_s - max(run.ahead_s for run in self._runs), len(pulses.t_s))
@@ -119,7 +124,7 @@ class Following:
             run.rest(end_s, self.tripped_s)
         self._commanded_um[self._commanded :] = self._last_um
         trace = self._trace()
-        losses = [loss for axis in Axis for loss in self._slips[axis].losses(axis, trace)]
+        losses = [loss for axis in Axis for loss in self._axes[axis].losses(axis, trace)]
         if self._trip:
             losses.append(trip_loss(*self._trip, trace, ticks))
         (x, y), drives = (run.record for run in self._runs), drives_of(self._setup.model)
@@ -135,7 +140,8 @@ class Following:
         tripped = self._runs[first].state
         if before and tripped.tripped_s < np.inf:
             self._trip = first, Slip(tripped.tripped_s, tripped.lag_um, tripped.at_um)
-            self._runs = before
+            for axis, run in zip(self._axes, before, strict=True):
+                axis.run = run
             self._let(until_s, pulses)
 
     def _let(self, until_s: float, pulses: int) -> None:
@@ -149,8 +155,8 @@ class Following:
         of_x.result()
 
     def _let_axis(self, axis: Axis, until_s: float) -> None:
-        """Let one axis follow up to a time, and note its slips."""
-        self._slips[axis].take(self._runs[axis].follow(until_s, self.tripped_s))
+        """Let one axis follow up to a time."""
+        self._axes[axis].follow(until_s, self.tripped_s)
 
     @cached_property
     def _second_core(self) -> ThreadPoolExecutor:

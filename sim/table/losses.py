@@ -1,11 +1,12 @@
 """What the drives lose, and findings on it: steps that a stepper slips past, the error at which a servo trips."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Final, Literal, NamedTuple
 
 from parser.controller_words import Axis
 from parser.dialect.reader import at_block
+from parser.findings.catalogue import TO
 from parser.findings.findings import Fact, Finding, Value, file_order
 from parser.program import Program
 from parser.units import mm
@@ -92,6 +93,8 @@ class Loss(NamedTuple):
     x_um, y_um
         Place of the table then, in program coordinates; that of the other axis is taken between two samples of the
         trace.
+    neighbours_um
+        What neighbours of the run lose in the block (`sim.table.neighbours`), each as `amount_um` has it.
     """
 
     kind: LossKind
@@ -101,6 +104,17 @@ class Loss(NamedTuple):
     amount_um: float
     x_um: float
     y_um: float
+    neighbours_um: tuple[float, ...] = ()
+
+    @property
+    def least_um(self) -> float:
+        """The least that the run or a neighbour of it loses."""
+        return min(self.amount_um, *self.neighbours_um, self.amount_um)
+
+    @property
+    def most_um(self) -> float:
+        """The most that the run or a neighbour of it loses."""
+        return max(self.amount_um, *self.neighbours_um, self.amount_um)
 
 
 class Slip(NamedTuple):
@@ -127,13 +141,18 @@ class SlipTally:
             amount, way = self._sums.get(row, (0.0, 0.0))
             self._sums[row] = amount + slip.amount_um, way + abs(slip.amount_um)
 
-    def losses(self, axis: Axis, trace: Trace) -> list[Loss]:
-        """The losses of all blocks."""
+    def lost_um(self, row: int) -> float:
+        """What was lost in a block: the sum of its slips, or of their magnitudes where they cancel out."""
+        amount, way = self._sums.get(row, (0.0, 0.0))
+        return amount or way
+
+    def losses(self, axis: Axis, trace: Trace, neighbours: Sequence["SlipTally"]) -> list[Loss]:
+        """The losses of all blocks, with what the neighbours of the run lose in them."""
         losses = []
         for row, slip in self._first.items():
-            amount, way = self._sums[row]
             place = trace.place_with(axis, slip.at_um, slip.t_s)
-            losses.append(Loss("lost-steps", axis, row, slip.t_s, amount or way, *place))
+            others = tuple(neighbour.lost_um(row) for neighbour in neighbours)
+            losses.append(Loss("lost-steps", axis, row, slip.t_s, self.lost_um(row), *place, others))
         return losses
 
 
@@ -185,8 +204,17 @@ def _stretches(losses: Iterable[Loss]) -> list[list[Loss]]:
 
 def _lost(program: Program, stretch: list[Loss]) -> Finding:
     loss, last, lost_um = stretch[0], stretch[-1].row + 1, sum(abs(loss.amount_um) for loss in stretch)
-    found = at_block(program.toolpath, program.lines, "3B402", loss.row, **_where(loss), lost=lost_um, last=last)
+    where = _where(loss) | {"chance": _chance(stretch)}
+    found = at_block(program.toolpath, program.lines, "3B402", loss.row, **where, lost=lost_um, last=last)
     return found.with_fact(Lost(loss.kind))
+
+
+def _chance(stretch: list[Loss]) -> str:
+    """What a run and its neighbours lose in a stretch, from the least to the most; empty where all lose the same."""
+    runs = zip(*((loss.amount_um, *loss.neighbours_um) for loss in stretch), strict=True)
+    lost_um = [sum(map(abs, amounts)) for amounts in runs]
+    least, most = min(lost_um), max(lost_um)
+    return f"{least:.0f}{TO}{most:.0f} µm" if least < most else ""
 
 
 def _trip(program: Program, loss: Loss, motor: Motor) -> Finding:

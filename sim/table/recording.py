@@ -248,6 +248,9 @@ def _binned(body: Body, whole: Part, limits: Limits, record: Record, number: int
         part_s = left_s if number == len(border_s) - 2 else min(left_s, border_s[number + 1] - t_s)
         if stands:
             _record_rest(record.bins, number, course, part_s, error_um)
+            if record.peaks[0] < 0.0:  # nothing has moved yet
+                peaked = Peaked(abs(course.force), 0.0, 0.0, 0.0, abs(course.lag_um), 0.0)
+                _take_peaks(body, Part(course, course, t_s, part_s, error_um), peaked, limits, record)
             t_s, left_s = t_s + part_s, left_s - part_s
             continue
         last = whole.last if part_s == whole.after_s else moved(body, course, part_s)

@@ -47,6 +47,9 @@ class Engine(Protocol):
     def copy(self) -> Self:
         """The same, to go on from here by itself later on."""
 
+    def moved_by(self, state: Any, by_um: float) -> Any:
+        """A state whose slide stands so far off, and of which nothing is recorded yet."""
+
 
 class ByEvents:
     """An axis that goes from event to event, exactly, in a compiled loop."""
@@ -79,6 +82,11 @@ class ByEvents:
         other._swings = copy.deepcopy(self._swings)
         return other
 
+    def moved_by(self, state: State, by_um: float) -> State:
+        """A state whose slide stands so far off, and of which nothing is recorded yet."""
+        course = state.course._replace(at_um=state.course.at_um + by_um, lag_um=state.course.lag_um - by_um)
+        return state._replace(course=course, noted=state.noted._replace(sample=0, bin=0))
+
 
 def axis_of(model: TableModel, number: int, room_um: Floats, speed_limit_um_s: float) -> Axis:
     """An axis of a table, by number; `room_um` (2,) is its travel."""
@@ -105,7 +113,7 @@ class AxisRun:
     def __init__(self, axis: Axis, at_um: int, ticks: Ticks, engine: Engine) -> None:
         place = float(at_um)
         self._engine = engine
-        self.record = _record_of(ticks, place)
+        self.record = _record_of(borders_s(ticks), ticks.t_s, place)
         self._train = Train(np.array([np.inf]), np.array([place]))
         rating = rated(axis.strength, self._train, Rating(0.0, 0.0, 0.0, 0, 0), -RATE_WINDOW_S)
         self._state = engine.at_rest(self._train, place, rating)
@@ -159,16 +167,23 @@ class AxisRun:
         other.record, other._engine = record._replace(bins=bins, peaks=peaks), self._engine.copy()
         return other
 
+    def neighbour(self, state: Any, by_um: float) -> "AxisRun":
+        """A run that goes on by itself from a state of this one, its slide so far off; it keeps nothing but slips."""
+        other = copy.copy(self)
+        other.record = _record_of(self.record.bins.border_s[[0, -1]], np.empty(0), state.at_um)
+        other._engine = self._engine.copy()
+        other._state = self._engine.moved_by(state, by_um)
+        return other
 
-def _record_of(ticks: Ticks, place_um: float) -> Record:
-    """The record of a run that has not begun, from a place on."""
-    border_s = borders_s(ticks)
+
+def _record_of(border_s: Floats, sample_s: Floats, place_um: float) -> Record:
+    """The record of a run that has not begun, from a place on, with bins and samples."""
     cells, peak = (len(border_s) - 1) * VALUES, [-1.0, 0.0, 0.0, 0.0, place_um]
     return Record(
         bins=Bins(border_s, np.full(cells, np.inf), np.full(cells, -np.inf), np.zeros(cells)),
         peaks=np.array(PEAKS * peak),
-        sample_s=np.append(ticks.t_s, np.inf),
-        sampled_um=np.zeros(len(ticks.t_s)),
+        sample_s=np.append(sample_s, np.inf),
+        sampled_um=np.zeros(len(sample_s)),
         slip_s=np.zeros(_SLIPS),
         slip_um=np.zeros(_SLIPS),
         slip_at_um=np.zeros(_SLIPS),

@@ -85,7 +85,15 @@ VALUES: dict[str, dict[str, Value]] = {
     "3B321": {"by": 139.57, "x_mm": -0.601, "y_mm": 1.83},
     "3B320": {"lines": 4, "last": 9, "length": 40000.0},
     "3B401": {"x_mm": 400.0, "y_mm": 500.0, "axis": "X", "by": 10000.0},
-    "3B402": {"axis": "X", "lost": 18.0, "last": 12, "t_s": 11524.25, "x_mm": 12.5, "y_mm": -0.0001},
+    "3B402": {
+        "axis": "X",
+        "lost": 18.0,
+        "last": 12,
+        "chance": "12‥24 µm",
+        "t_s": 11524.25,
+        "x_mm": 12.5,
+        "y_mm": -0.0001,
+    },
     "3B403": {"axis": "Y", "lag": 100.2, "limit": 100.0, "t_s": 3.0, "x_mm": 12.5, "y_mm": 0.0},
     "3B404": {"body": "arm", "name": "left clamp", "t_s": 3.0, "x_mm": 12.5, "y_mm": 0.0},
     "3B405": {"t_s": 3.0, "x_mm": 12.5, "y_mm": 0.0},
@@ -304,6 +312,7 @@ def test_lengths_terms_and_asides() -> None:
     assert texts(Finding("3B100", VALUES["3B100"])).found == "the file cannot be read (Permission denied)"
     assert texts(Finding("3B402", VALUES["3B402"])).found == (
         "the X motor slips at 12.500, 0.000 mm, 3:12:04.25 into the run, and loses 18.00 µm up to block 12"
+        " (12 to 24 µm in runs that begin 0.002 µm off)"
     )
     for body, english, chinese in (("wire", "the wire touches", "钼丝碰到"), ("arm", "the arm touches", "丝架碰到")):
         values = VALUES["3B404"] | {"body": body}

@@ -105,7 +105,14 @@ def limit_entry(peak: Peak, ran_s: float) -> LimitEntry:
 
 def loss_entry(loss: Loss, ran_s: float) -> LossEntry:
     """One entry of ``losses[]`` of a run of `ran_s`."""
-    return {"kind": loss.kind, "axis": loss.axis.name, "amount_um": rounded(loss.amount_um), **_met(loss, ran_s)}
+    return {
+        "kind": loss.kind,
+        "axis": loss.axis.name,
+        "amount_um": rounded(loss.amount_um),
+        "least_um": rounded(loss.least_um),
+        "most_um": rounded(loss.most_um),
+        **_met(loss, ran_s),
+    }
 
 
 def ended_entry(run: DryRun) -> EndedEntry | None:

@@ -269,6 +269,8 @@ class LossEntry(TypedDict):
     kind: Annotated[str, one_of("lost-steps", "trip")]
     axis: AxisName
     amount_um: float
+    least_um: float
+    most_um: float
     block: Ordinal
     t_s: Size
     x_um: float

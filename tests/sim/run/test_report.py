@@ -161,7 +161,7 @@ def test_limits_and_losses_of_the_report() -> None:
     assert report["limits"][1]["y_um"] == 22_123.456789
     assert report["losses"] == [
         {
-            **{"kind": "lost-steps", "axis": "Y", "amount_um": -12.0},
+            **{"kind": "lost-steps", "axis": "Y", "amount_um": -12.0, "least_um": -12.0, "most_um": -12.0},
             **{"block": 3, "t_s": 80.5, "x_um": 13_000.0, "y_um": 22_500.0},
         }
     ]

@@ -43,7 +43,15 @@ def test_a_run_without_losses_has_no_findings() -> None:
 def test_a_slip_is_found_at_its_block_with_axis_time_and_place() -> None:
     (finding,) = loss_findings(PROGRAM, (slip(41, Axis.Y, -12.0),), STEPPER)
     assert (finding.code, finding.block, finding.line, finding.column) == ("3B402", 42, 42, 1)
-    assert finding.values == {"axis": "Y", "t_s": 41.0, "x_mm": 0.41, "y_mm": -2.5, "lost": 12.0, "last": 42}
+    assert finding.values == {
+        "axis": "Y",
+        "t_s": 41.0,
+        "x_mm": 0.41,
+        "y_mm": -2.5,
+        "lost": 12.0,
+        "last": 42,
+        "chance": "",
+    }
     assert texts(finding).found == (
         "the Y motor slips at 0.410, -2.500 mm, 0:00:41.00 into the run, and loses 12.00 µm up to block 42"
     )
