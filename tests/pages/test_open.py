@@ -504,6 +504,40 @@ def test_a_click_sets_a_thread_point_where_it_is_to(browsers: Browsers, empty: O
         assert "--start" not in page.inner_text("#drawing-told")
 
 
+def test_a_mark_is_dragged_where_it_is_to_and_the_picture_stays(
+    browsers: Browsers, empty: OpenedPage, tmp_path: Path
+) -> None:
+    with tab(browsers, empty.address) as shown:
+        page = shown.page
+        page.set_input_files(
+            "#pick",
+            drawn(tmp_path, lambda space: space.add_lwpolyline([(0, 0), (20, 0), (20, 10), (0, 10)], close=True)),
+        )
+        page.wait_for_selector("#drawing:not([hidden])")
+        page.wait_for_selector("#drawing-told:empty", state="attached")
+        at = places_of(shown)
+        page.fill("#starts", "2F; 7,5")
+        page.fill("#picks", "layer:CUT; 3,3; 15,8")
+        for field, place, to, marks in (
+            ("#starts", (7, 5), (10, -3), "2F; "),
+            ("#picks", (15, 8), (12, 6), "layer:CUT; 3,3; "),
+        ):
+            page.mouse.move(*at(*place))
+            page.mouse.down()
+            page.mouse.move(*at(11, 4), steps=3)
+            page.mouse.move(*at(*to), steps=3)
+            page.mouse.up()
+            written = page.input_value(field)
+            assert written.startswith(marks), "the others stay as they were written"
+            x, y = map(float, written.removeprefix(marks).split(","))
+            assert (x, y) == pytest.approx(to, abs=0.2)
+        page.mouse.move(*at(18, 3))
+        assert places_of(shown)(5, 5) == pytest.approx(at(5, 5), abs=1.0), "the picture was not moved"
+        page.check("#click-starts")
+        page.mouse.click(*at(10, -3))  # a click takes it back, as before
+        assert page.input_value("#starts") == "2F"
+
+
 def test_beneath_a_program_a_click_picks_the_place_of_the_drawing(browsers: Browsers, tmp_path: Path) -> None:
     """The plate lies at (30, 40) mm in the drawing, and at (−10, −11) in the program."""
 

@@ -2,7 +2,7 @@
 import * as asked from "./asked.js";
 import { element, make } from "../../html/assets/elements.js";
 import * as language from "../../html/assets/language.js";
-import { IN_PLACE, lifted, placesIn, toggled } from "./picks.js";
+import { IN_PLACE, lifted, moved, numberAt, placesIn, toggled } from "./picks.js";
 
 /** @import { Said } from "../../html/assets/language.js" */
 /** @import { Curves } from "../../replay/assets/document.js" */
@@ -129,6 +129,24 @@ export function wireDrawing(around) {
       field.value = toggled(field.value, lifted(placement, place), nearUm);
       show();
       return true;
+    },
+    /**
+     * Take hold of the mark at a place of the picture, µm: what moves it to others, null where there is none.
+     * @param {[x: number, y: number]} place
+     * @param {number} nearUm
+     * @returns {((place: [x: number, y: number]) => void) | null}
+     */
+    mark(place, nearUm) {
+      if (!number || element("#panel-drawing", HTMLElement).hidden) return null;
+      for (const field of [starts, picks]) {
+        const of = numberAt(field.value, placement, place, nearUm);
+        if (of < 0) continue;
+        return (to) => {
+          field.value = moved(field.value, of, lifted(placement, to));
+          show();
+        };
+      }
+      return null;
     },
     /** Its number; empty where there is none. */
     number: () => number,

@@ -28,6 +28,7 @@ const status = wireStatus();
 const form = wireForm((isRead) => (isRead ? recheck() : showForm()));
 const picture = pictureOf(element("#picture", HTMLCanvasElement), {
   block: goToBlock, hover: (place, row) => watching.hover(place, row), place: (place, nearUm) => drawing.pick(place, nearUm),
+  mark: (place, nearUm) => drawing.mark(place, nearUm),
 });
 const text = textOf(element("#text", HTMLTextAreaElement), element("#lines", HTMLElement), (line) => {
   picture.markLine(line);

@@ -59,19 +59,54 @@ export function placesIn(text, placement) {
 }
 
 /**
+ * Which of the places that a field names lies nearest to one of the picture, µm; −1 where none is near.
+ * @param {string} text
+ * @param {Placement} placement
+ * @param {[x: number, y: number]} place
+ * @param {number} nearUm
+ */
+export function numberAt(text, placement, place, nearUm) {
+  const away = placesIn(text, placement).map(([x, y]) => Math.hypot(x - place[0], y - place[1]));
+  const nearest = Math.min(...away);
+  return nearest < nearUm ? away.indexOf(nearest) : -1;
+}
+
+/**
+ * What stands in a field once one of its places is another one of the drawing, µm.
+ * @param {string} text
+ * @param {number} number among its places
+ * @param {[x: number, y: number]} place
+ */
+export function moved(text, number, place) {
+  let at = -1;
+  const all = listed(text).map((each) => {
+    if (placeOf(each)) at += 1;
+    return placeOf(each) && at === number ? written(place) : each;
+  });
+  return all.join("; ");
+}
+
+/**
+ * A place of the drawing, µm, as a field has it.
+ * @param {[x: number, y: number]} place
+ */
+function written(place) {
+  return place.map((um) => (um / 1000).toFixed(3)).join(",");
+}
+
+/**
  * What stands in a field once a place of the drawing, µm, is named in it, or the one near it no longer.
  * @param {string} text
  * @param {[x: number, y: number]} place
  * @param {number} nearUm
  */
 export function toggled(text, place, nearUm) {
-  const [x, y] = place.map((um) => (um / 1000).toFixed(3));
   const all = listed(text);
   const others = all.filter((each) => {
     const own = placeOf(each);
-    return !own || 1000 * Math.hypot(own[0] - Number(x), own[1] - Number(y)) >= nearUm;
+    return !own || Math.hypot(1000 * own[0] - place[0], 1000 * own[1] - place[1]) >= nearUm;
   });
-  return (others.length < all.length ? others : [...all, `${x},${y}`]).join("; ");
+  return (others.length < all.length ? others : [...all, written(place)]).join("; ");
 }
 
 /**

@@ -13,28 +13,21 @@ import { rowAt } from "./snap.js";
 import { drawAxes, drawBand, drawPlayed } from "./under_path.js";
 import { drawWire } from "../../replay/assets/wire.js";
 import { drawScaleBar } from "../../replay/assets/scale_bar.js";
-import { wirePointer } from "../../replay/assets/pointer.js";
+import { wirePointing } from "./pointing.js";
 
 /** @import { Figure, Finding, Path } from "./data.js" */
 /** @import { Curves } from "../../replay/assets/document.js" */
 /** @import { Different } from "./differing.js" */
 /** @import { Path as Drawn } from "../../replay/assets/path.js" */
+/** @import { On } from "./pointing.js" */
 /** @import { Shown } from "./playing.js" */
 
 /** @typedef {ReturnType<typeof pictureOf>} Picture */
 
-const NEAR = 12; // px from a block that still means it
-const STILL = 4; // px of a press that is a click
-
 /**
  * The picture of the page.
  * @param {HTMLCanvasElement} canvas
- * @param {object} on
- * @param {(row: number) => void} on.block told the row of a block that is clicked
- * @param {(place: [x: number, y: number], nearUm: number) => boolean} on.place told a place that is clicked, and how far
- *   off still means it; whether it is taken, so that no block is
- * @param {(place: [x: number, y: number] | null, row: number) => void} on.hover told where the pointer is, and over which
- *   block; −1 over none, null where it has left
+ * @param {On} on
  */
 export function pictureOf(canvas, on) {
   const pen = penOf(canvas);
@@ -214,6 +207,24 @@ export function pictureOf(canvas, on) {
     view.fit(box, { top: 40, bottom: 34 });
   }
 
+  /**
+   * Tell where the pointer is, once there is something to see.
+   * @param {[x: number, y: number] | null} place
+   * @param {number} row
+   */
+  function tellPlace(place, row) {
+    if (!place || drawn || drawing) on.hover(place, row);
+  }
+
+  /**
+   * The block at a place, −1 where there is none.
+   * @param {[x: number, y: number]} place
+   * @param {number} nearUm
+   */
+  function rowUnder(place, nearUm) {
+    return path && drawn ? rowAt(path, drawn, place, nearUm) : -1;
+  }
+
   /** Whether something of path or drawing lies beyond the window. */
   function isCut() {
     const bounds = view.bounds();
@@ -223,33 +234,10 @@ export function pictureOf(canvas, on) {
     });
   }
 
-  wirePointer(canvas, view, () => {
+  wirePointing(canvas, view, { ...on, measuring, rowAt: rowUnder, hover: tellPlace, moved: () => {
     isMoved = true;
     later();
-  });
-  /** @type {[x: number, y: number]} */
-  let pressed = [0, 0];
-  canvas.addEventListener("pointerdown", (event) => { pressed = [event.clientX, event.clientY]; });
-  canvas.addEventListener("click", (event) => {
-    if (Math.hypot(event.clientX - pressed[0], event.clientY - pressed[1]) > STILL) return;
-    const box = canvas.getBoundingClientRect();
-    const [x, y] = [event.clientX - box.left, event.clientY - box.top];
-    if (measuring.isOn()) {
-      measuring.click(x, y);
-      return;
-    }
-    if (on.place(view.placeOf(x, y), NEAR / view.scale)) return;
-    const row = path && drawn ? rowAt(path, drawn, view.placeOf(x, y), NEAR / view.scale) : -1;
-    if (row >= 0) on.block(row);
-  });
-  canvas.addEventListener("pointermove", (event) => {
-    const box = canvas.getBoundingClientRect();
-    const [x, y] = [event.clientX - box.left, event.clientY - box.top];
-    if (measuring.isOn() && !event.buttons) measuring.move(x, y);
-    const place = view.placeOf(x, y);
-    if (drawn || drawing) on.hover(place, path && drawn ? rowAt(path, drawn, place, NEAR / view.scale) : -1);
-  });
-  canvas.addEventListener("pointerleave", () => on.hover(null, -1));
+  } });
   new ResizeObserver(() => {
     isFitted = isFitted && isMoved;
     later();

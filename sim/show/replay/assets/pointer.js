@@ -9,8 +9,9 @@ const PER_NOTCH = 1.0015; // zoom of a px of wheel
  * @param {HTMLCanvasElement} canvas
  * @param {View} view
  * @param {(isPan: boolean) => void} onMove
+ * @param {() => boolean} isDragging whether a pointer drags something else than the view
  */
-export function wirePointer(canvas, view, onMove) {
+export function wirePointer(canvas, view, onMove, isDragging = () => false) {
   /** @type {Map<number, [x: number, y: number]>} */
   const down = new Map(); // pointers to their places
 
@@ -46,7 +47,7 @@ export function wirePointer(canvas, view, onMove) {
       view.zoomAt(after.x, after.y, after.apart / before.apart);
     } else {
       down.set(event.pointerId, [x, y]);
-      if (down.size > 2) return;
+      if (down.size > 2 || isDragging()) return;
       view.panBy(x - old[0], y - old[1]);
     }
     onMove(true);
