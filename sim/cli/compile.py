@@ -21,6 +21,7 @@ LOOPS: Final[tuple[str, ...]] = (
     "sim.measure.causes",
     "sim.table.forms",
     "sim.table.course",
+    "sim.table.events",
     "sim.table.rating",
     "sim.table.history",
     "sim.table.axis",

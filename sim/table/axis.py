@@ -1,6 +1,6 @@
 """One axis of the table, from event to event: what it is, what it is asked for, how far it has come, what is next.
 
-Besides the events of its course (`sim.table.course`) something happens where its motor begins or ends a step, where
+Besides the events of its course (`sim.table.events`) something happens where its motor begins or ends a step, where
 its step rate is taken anew, and where a servo of the table trips.
 """
 
@@ -8,20 +8,8 @@ import math
 from typing import NamedTuple
 
 from controller.compiled.loops import compiled
-from sim.table.course import (
-    LIMITED,
-    LOOSE,
-    NOTHING,
-    SLIPS,
-    STILL_UM,
-    Body,
-    Bounds,
-    Course,
-    Hold,
-    after_event,
-    anew,
-    end_of,
-)
+from sim.table.course import LIMITED, LOOSE, STILL_UM, Body, Bounds, Course, Hold, anew
+from sim.table.events import NOTHING, SLIPS, after_event, end_of
 from sim.table.rating import Rating, Strength, Train, Turn, rated, turned
 
 _BRAKED_TO = 1e-6

@@ -1,4 +1,4 @@
-"""Ticks: how finely the table is watched, and when the trace has a sample of it.
+"""When the trace has a sample of the table; and ticks, by which a table of bodies goes (`sim.table.bodies`).
 
 While steps are felt, a tick is a fraction of the period at which its axis rings. Where the velocity itself changes by
 enough to be felt, ticks are finer still until that shake has died. Between steps a slide stands, and needs none.
