@@ -68,3 +68,34 @@ def pulses_of(axes: list[Steps]) -> Pulses:
         before = np.searchsorted(steps.t_s, t_s[order], side="right")
         places.append(np.append(0.0, steps.place_um)[before].astype(np.int32))
     return Pulses(t_s[order], *places, np.zeros(len(order), dtype=np.int32))
+
+
+def boundless_model(rng: np.random.Generator) -> TableModel:
+    """A machine from anywhere within the bounds of machine files, however absurd."""
+
+    def between(low: float, high: float) -> float:
+        return float(10.0 ** rng.uniform(low, high))
+
+    def often_none(low: float, high: float) -> tuple[float, float]:
+        return tuple(float(rng.choice([0.0, between(low, high)])) for _ in range(2))
+
+    servo = rng.random() < 0.3
+    motor = Motor(
+        kind="servo" if servo else "stepper",
+        step_time_s=float(rng.choice([0.0, between(-6, 0)])),
+        electrical_period_um=between(-1, 4),
+        following_error_limit_um=between(-1, 6) if servo else np.inf,
+        force_curve=((0.0, between(-1, 6)), (between(1, 4), between(-1, 6))),
+    )
+    return TableModel(
+        travel_x_mm=400.0,
+        travel_y_mm=500.0,
+        saddle_mass_kg=between(-2, 5),
+        carriage_mass_kg=between(-2, 5),
+        drive_stiffness_n_um=between(-3, 5),
+        drive_damping_ratio=between(-2, 1),
+        motor=motor,
+        friction_n=often_none(-3, 6),
+        viscous_n_s_mm=often_none(-3, 6),
+        backlash_um=often_none(-3, 4),
+    )
