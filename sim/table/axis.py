@@ -192,9 +192,8 @@ def _stilled(axis: Axis, state: State) -> State:
             course = Course(course.at_um, 0.0, course.lag_um, course.motor_um_s, hold, course.force, False)
             way = 0
     # At a standstill the motor can do more than at its last step rate.
-    rests = (
-        idle and way == 0 and (abs(course.force) < state.rating.limit or state.rating.limit >= axis.strength.limit[0])
-    )
+    may_give_way = abs(course.force) >= state.rating.limit and state.rating.limit < axis.strength.limit[0]
+    rests = idle and way == 0 and not may_give_way
     return State(state.t_s, course, state.lost_um, rests, state.turn, state.rating, state.noted, state.tripped_s)
 
 

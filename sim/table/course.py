@@ -25,7 +25,7 @@ class Body(NamedTuple):
     drive, swings
         Its drive, and how its slide answers on it.
     low_um, high_um
-        Ends of its travel.
+        Ends of its travel, µm.
     """
 
     drive: Drive
@@ -94,7 +94,7 @@ def rubs_at(body: Body) -> float:
 
 @compiled("f8(Body, i8, f8, f8)", Body)
 def train_force(body: Body, side: int, lag_um: float, lag_um_s: float) -> float:
-    """What spring and damper of a drive train take, over the mass, while the nut lies on a flank."""
+    """What spring and damper of a drive train take, over the mass, µm/s², while the nut lies on a flank."""
     drive = body.drive
     return drive.spring * (lag_um - side * drive.slack_um) + drive.damper * lag_um_s
 
@@ -139,7 +139,7 @@ def anew(body: Body, bounds: Bounds, course: Course) -> Course:
 
 @compiled("f8(Body, Course)", Body, Course)
 def rub_of(body: Body, course: Course) -> float:
-    """Coulomb friction against the motion, over the mass."""
+    """Coulomb friction against the motion, over the mass, µm/s²."""
     return 0.0 if course.braked else course.hold.way * body.drive.friction
 
 

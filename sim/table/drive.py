@@ -1,6 +1,6 @@
 """The drive of an axis by what it does to the mass that it moves, worked out from the table's model.
 
-The force law of a drive: spring and damper of the train across a dead zone, limited in force, against friction.
+Spring and damper of the train act across a dead zone, limited in force, against friction.
 """
 
 import math

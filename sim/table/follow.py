@@ -22,7 +22,7 @@ from sim.table.losses import (
     peaks_of,
     trip_loss,
 )
-from sim.table.neighbours import Losing
+from sim.table.neighbours import AxisWithNeighbours
 from sim.table.run import AxisRun, ByEvents, axis_of
 from sim.table.ticks import Ticks
 from sim.table.trace import Trace
@@ -79,7 +79,7 @@ class Following:
 
     def __init__(self, setup: Setup, ticks: Ticks) -> None:
         self._setup, self._ticks = setup, ticks
-        self._axes = [Losing(run, ticks) for run in _runs(setup, ticks)]
+        self._axes = [AxisWithNeighbours(run, ticks) for run in _runs(setup, ticks)]
         self._trip: tuple[Axis, Slip] | None = None
         self._last_um = np.array([setup.origin_um], dtype=np.int64)
         self._known_s = self._followed_s = 0.0

@@ -14,9 +14,13 @@ from controller.compiled.loops import compiled
 from sim.table.drive import Drive
 
 _ALL_BUT_CRITICAL = 1e-10
+"""Share of k/m by which λ² may miss it: nearer, a wave and one that creeps are the same but for rounding."""
 _SERIES_TO = 0.01
+"""Share of a decay time below which the integrals of e^(-wt) are taken from their series: else rounding is 1e-12."""
 _ITERATIONS = 60
+"""Newton's steps at most; a root takes some five, and halving alone 50."""
 _RESOLVED = 1e-14
+"""Share of the time of a root by which the last step may move it."""
 
 
 class Oscillation(NamedTuple):
@@ -87,7 +91,7 @@ def value_of(wave: Wave, pair: Pair) -> float:
 
 @compiled("(Oscillation, f8, f8, f8)", Oscillation, Wave)
 def wave_of(swings: Oscillation, level: float, value: float, slope: float) -> Wave:
-    """A wave about a level, by how far it is from there at the beginning, and by its slope then."""
+    """A wave about a level, by how far it is from there at the beginning, and by its slope then, per s."""
     return Wave(level, value, (slope + swings.decay * value) / swings.rate)
 
 
@@ -209,7 +213,7 @@ def coasted_s(viscous: float, once: float) -> float:
 
 
 class Coast(NamedTuple):
-    """A quantity over time of a slide that coasts: value + slope · t + bend · (second integral of e^(-wt))."""
+    """A quantity over time, s, of a slide that coasts: value + slope · t + bend · (second integral of e^(-wt))."""
 
     value: float
     slope: float

@@ -1,8 +1,8 @@
-"""What is recorded of one axis as it goes through its ticks, and the history of a run that is made of it.
+"""What is recorded of one axis, and the history of a run that is made of it.
 
 The history is velocity, acceleration, lag, following error and force of each axis over time. Its memory does not grow
-with the ticks: time is cut into at most 2000 bins, of which each has the lowest, the highest and the mean value of its
-ticks. Beside them stand peaks, slips of the motor, and the samples of the trace.
+with the run: time is cut into at most 2000 bins, of which each has the lowest, the highest and the mean value in it.
+Beside them stand peaks, slips of the motor, and the samples of the trace.
 """
 
 import math

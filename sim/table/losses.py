@@ -108,13 +108,13 @@ class Loss(NamedTuple):
 
     @property
     def least_um(self) -> float:
-        """The least that the run or a neighbour of it loses."""
-        return min(self.amount_um, *self.neighbours_um, self.amount_um)
+        """The least that the run or a neighbour of it loses, µm."""
+        return min((self.amount_um, *self.neighbours_um))
 
     @property
     def most_um(self) -> float:
-        """The most that the run or a neighbour of it loses."""
-        return max(self.amount_um, *self.neighbours_um, self.amount_um)
+        """The most that the run or a neighbour of it loses, µm."""
+        return max((self.amount_um, *self.neighbours_um))
 
 
 class Slip(NamedTuple):

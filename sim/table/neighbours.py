@@ -12,11 +12,12 @@ from sim.table.ticks import Ticks
 from sim.table.trace import Trace
 
 NEIGHBOURS_UM = (-0.002, -0.001, 0.001, 0.002)
-"""How far off the slides of neighbours stand when the first step is lost: far less than any table is known."""
+"""How far off the slides of neighbours stand as the pulses begin among which the first step is lost: far less than any
+table is known."""
 
 
-class Losing:
-    """An axis, what it loses, and from its first loss on its neighbours."""
+class AxisWithNeighbours:
+    """An axis, what it loses, and its neighbours once it has lost a step."""
 
     def __init__(self, run: AxisRun, ticks: Ticks) -> None:
         self.run, self._ticks = run, ticks

@@ -22,7 +22,7 @@ from sim.table.course import (
     value_in,
     wave_in,
 )
-from sim.table.forms import Oscillation, coasting, first_zero, pair_at, slope_of, value_of
+from sim.table.forms import Oscillation, coasted_s, coasting, first_zero, pair_at, slope_of, value_of
 from sim.table.history import VALUES, Bins, Limits, PeakPlace, Record, is_peak, take_peak, widened
 
 
@@ -51,14 +51,14 @@ def _between(first: float, last: float, after_s: float) -> Range:
 
 
 @compiled("(Range, f8, f8)", Range)
-def _and(range_: Range, value: float, after_s: float) -> Range:
+def _with_value(range_: Range, value: float, after_s: float) -> Range:
     """A range that a value is taken into."""
     if value < range_.low:
         return Range(value, range_.high, after_s, range_.high_s)
     return Range(range_.low, value, range_.low_s, after_s) if value > range_.high else range_
 
 
-class Both(NamedTuple):
+class Ends(NamedTuple):
     """How a driven slide lags at both ends of a course, and how long that lasts, s."""
 
     first: Lagging
@@ -66,19 +66,19 @@ class Both(NamedTuple):
     after_s: float
 
 
-@compiled("(Oscillation, Form, Both)", Oscillation, Form, Both, Range)
-def _range_of(swings: Oscillation, form: Form, both: Both) -> Range:
+@compiled("(Oscillation, Form, Ends)", Oscillation, Form, Ends, Range)
+def _range_of(swings: Oscillation, form: Form, ends: Ends) -> Range:
     """Range of a wave: it decays, so that no extreme behind the first two is farther out."""
-    after_s = both.after_s
-    found = _between(value_in(form, both.first), value_in(form, both.last), after_s)
+    after_s = ends.after_s
+    found = _between(value_in(form, ends.first), value_in(form, ends.last), after_s)
     once = swings.creeps or swings.rate * after_s < math.pi
-    if once and slope_in(swings, form, both.first) * slope_in(swings, form, both.last) >= 0.0:
+    if once and slope_in(swings, form, ends.first) * slope_in(swings, form, ends.last) >= 0.0:
         return found
-    wave = wave_in(swings, form, both.first)
+    wave = wave_in(swings, form, ends.first)
     turns_s = first_zero(swings, slope_of(swings, wave))
     for _ in range(2):
         if turns_s < after_s:
-            found = _and(found, value_of(wave, pair_at(swings, turns_s)), turns_s)
+            found = _with_value(found, value_of(wave, pair_at(swings, turns_s)), turns_s)
         turns_s += math.inf if swings.creeps else math.pi / swings.rate
     return found
 
@@ -98,30 +98,22 @@ def _ranges(body: Body, part: Part) -> Ranges:
     """Ranges in a part of a course."""
     drive, swings, course, last, after_s = body.drive, body.swings, part.course, part.last, part.after_s
     if is_driven(course):
-        both = Both(lagging_of(body, course), lagging_of(body, last), after_s)
+        ends = Ends(lagging_of(body, course), lagging_of(body, last), after_s)
         rest_um = rest_lag(body, course)
         even = drive.spring * (rest_um - course.hold.side * drive.slack_um)
-        speed = _range_of(swings, Form(course.motor_um_s, 0.0, -1.0), both)
-        bend = _range_of(swings, Form(0.0, swings.spring, swings.damping), both)
-        lag = _range_of(swings, Form(rest_um, 1.0, 0.0), both)
-        force = _range_of(swings, Form(even, drive.spring, drive.damper), both)
+        speed = _range_of(swings, Form(course.motor_um_s, 0.0, -1.0), ends)
+        bend = _range_of(swings, Form(0.0, swings.spring, swings.damping), ends)
+        lag = _range_of(swings, Form(rest_um, 1.0, 0.0), ends)
+        force = _range_of(swings, Form(even, drive.spring, drive.damper), ends)
         return Ranges(speed, bend, lag, force)
     velocity = _between(course.velocity, last.velocity, after_s)
     first, then = acceleration_of(body, course), acceleration_of(body, last)
     lag = _between(course.lag_um, last.lag_um, after_s)
     lag_um_s, last_um_s = course.motor_um_s - course.velocity, course.motor_um_s - last.velocity
     if lag_um_s * last_um_s < 0.0:
-        turns_s = _even_s(body, course, first)
-        lag = _and(lag, moved(body, course, turns_s).lag_um, turns_s)
+        turns_s = min(coasted_s(body.drive.viscous, lag_um_s / first), after_s)  # then it is as fast as its motor
+        lag = _with_value(lag, moved(body, course, turns_s).lag_um, turns_s)
     return Ranges(velocity, _between(first, then, after_s), lag, _between(course.force, last.force, after_s))
-
-
-@compiled("f8(Body, Course, f8)", Body, Course)
-def _even_s(body: Body, course: Course, acceleration: float) -> float:
-    """When a slide that coasts is as fast as its motor."""
-    once = (course.motor_um_s - course.velocity) / acceleration
-    share = body.drive.viscous * once
-    return -math.log1p(-share) / body.drive.viscous if share > 0.0 else once
 
 
 @compiled("f8(Body, Part)", Body, Part)
@@ -159,32 +151,33 @@ def recorded_part(body: Body, part: Part, bins: Bins, number: int) -> Ranges:
     return ranges
 
 
-@compiled("(Range,)", Range)
-def _farthest(range_: Range) -> tuple[float, float]:
-    """The value of a range that is farthest from 0, without its sign, and when it comes."""
-    if -range_.low > range_.high:
-        return -range_.low, range_.low_s
-    return range_.high, range_.high_s
+class Farthest(NamedTuple):
+    """How far a quantity comes from 0 in a course, without its sign, and after how long, s."""
+
+    value: float
+    after_s: float
 
 
 class Peaked(NamedTuple):
-    """Highest force, speed and lag in a course, without their signs, and after how long each comes."""
+    """How far force over mass, µm/s², speed, µm/s, and lag, µm, come from 0 in a course."""
 
-    force: float
-    force_s: float
-    speed: float
-    speed_s: float
-    lag_um: float
-    lag_s: float
+    force: Farthest
+    speed: Farthest
+    lag_um: Farthest
+
+
+@compiled("(Range,)", Range, Farthest)
+def _farthest(range_: Range) -> Farthest:
+    """How far a range comes from 0."""
+    if -range_.low > range_.high:
+        return Farthest(-range_.low, range_.low_s)
+    return Farthest(range_.high, range_.high_s)
 
 
 @compiled("(Ranges,)", Ranges, Peaked)
 def peaked_of(ranges: Ranges) -> Peaked:
-    """Highest force, speed and lag of the ranges of a course."""
-    force, force_s = _farthest(ranges.force)
-    speed, speed_s = _farthest(ranges.velocity)
-    lag_um, lag_s = _farthest(ranges.lag_um)
-    return Peaked(force, force_s, speed, speed_s, lag_um, lag_s)
+    """How far force, speed and lag come from 0 in a course, by their ranges."""
+    return Peaked(_farthest(ranges.force), _farthest(ranges.velocity), _farthest(ranges.lag_um))
 
 
 @compiled("(Axis, AxisDemand, State)", Axis, AxisDemand, State, Limits)
@@ -194,19 +187,29 @@ def limits_of(axis: Axis, demand: AxisDemand, state: State) -> Limits:
     return Limits(bounds.force, axis.speed_limit_um_s, bounds.lag_um)
 
 
+class Candidate(NamedTuple):
+    """What may be a peak: its number, how far it comes from 0 and after how long, s, and its limit."""
+
+    number: int
+    farthest: Farthest
+    limit: float
+
+
+@compiled("void(Body, Part, Candidate, Record)", Body, Part, Candidate, Record)
+def _take_candidate(body: Body, part: Part, candidate: Candidate, record: Record) -> None:
+    """Take what may be a peak of a part of a course; where it comes is worked out for a new one alone."""
+    number, (value, after_s), limit = candidate
+    if is_peak(record, number, value, limit):
+        place = PeakPlace(part.t_s + after_s, moved(body, part.course, after_s).at_um)
+        take_peak(record, number, value, limit, place)
+
+
 @compiled("void(Body, Part, Peaked, Limits, Record)", Body, Part, Peaked, Limits, Record)
 def _take_peaks(body: Body, part: Part, peaked: Peaked, limits: Limits, record: Record) -> None:
-    """Take the peaks of a part of a course; where each comes is worked out for new ones alone."""
-    course, t_s = part.course, part.t_s
-    if is_peak(record, 0, peaked.force, limits.force):
-        place = PeakPlace(t_s + peaked.force_s, moved(body, course, peaked.force_s).at_um)
-        take_peak(record, 0, peaked.force, limits.force, place)
-    if is_peak(record, 1, peaked.speed, limits.speed):
-        place = PeakPlace(t_s + peaked.speed_s, moved(body, course, peaked.speed_s).at_um)
-        take_peak(record, 1, peaked.speed, limits.speed, place)
-    if is_peak(record, 2, peaked.lag_um, limits.lag_um):
-        place = PeakPlace(t_s + peaked.lag_s, moved(body, course, peaked.lag_s).at_um)
-        take_peak(record, 2, peaked.lag_um, limits.lag_um, place)
+    """Take the peaks of a part of a course."""
+    _take_candidate(body, part, Candidate(0, peaked.force, limits.force), record)
+    _take_candidate(body, part, Candidate(1, peaked.speed, limits.speed), record)
+    _take_candidate(body, part, Candidate(2, peaked.lag_um, limits.lag_um), record)
 
 
 @compiled("i8(Bins, i8, f8)", Bins)
@@ -249,7 +252,7 @@ def _binned(body: Body, whole: Part, limits: Limits, record: Record, number: int
         if stands:
             _record_rest(record.bins, number, course, part_s, error_um)
             if record.peaks[0] < 0.0:  # nothing has moved yet
-                peaked = Peaked(abs(course.force), 0.0, 0.0, 0.0, abs(course.lag_um), 0.0)
+                peaked = Peaked(Farthest(abs(course.force), 0.0), Farthest(0.0, 0.0), Farthest(abs(course.lag_um), 0.0))
                 _take_peaks(body, Part(course, course, t_s, part_s, error_um), peaked, limits, record)
             t_s, left_s = t_s + part_s, left_s - part_s
             continue

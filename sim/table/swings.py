@@ -189,15 +189,10 @@ def _store_leg(task: AxisTask, first: State, before: State, leg: Leg, swing: Swi
     if leg.after_s > 0.0:
         part = Part(course, leg.last, began_s, leg.after_s, error_um)
         peaked, at = peaked_of(recorded_part(body, part, swings.bins, slot)), slot * PEAKS
-        if peaked.force > swings.peaks[at]:
-            swings.peaks[at], swings.peak_s[at] = peaked.force, began_s + peaked.force_s
-            swings.peak_way_um[at] = moved(body, course, peaked.force_s).at_um - from_um
-        if peaked.speed > swings.peaks[at + 1]:
-            swings.peaks[at + 1], swings.peak_s[at + 1] = peaked.speed, began_s + peaked.speed_s
-            swings.peak_way_um[at + 1] = moved(body, course, peaked.speed_s).at_um - from_um
-        if peaked.lag_um > swings.peaks[at + 2]:
-            swings.peaks[at + 2], swings.peak_s[at + 2] = peaked.lag_um, began_s + peaked.lag_s
-            swings.peak_way_um[at + 2] = moved(body, course, peaked.lag_s).at_um - from_um
+        for which, (value, after_s) in enumerate(peaked, at):
+            if value > swings.peaks[which]:
+                swings.peaks[which], swings.peak_s[which] = value, began_s + after_s
+                swings.peak_way_um[which] = moved(body, course, after_s).at_um - from_um
     last = leg.state.course
     swings.courses[slot] += 1
     _store_course(swings, number + 1, last, from_um)

@@ -35,7 +35,7 @@ def parts(given: argparse.Namespace, folder: Path) -> dict[str, Callable[[], Ite
         "path": lambda: [*motion_lines(path, made), *_peak_line()],
         "offset": lambda: offset_lines(min(n, _MOST_COMPARED)),
         "check": lambda: check_lines(path, n),
-        "table": lambda: table_lines(given.length, given.part),
+        "table": lambda: table_lines(given.length),
         "compare": lambda: compare_lines(min(n, _MOST_COMPARED)),
         "goals": lambda: goal_lines(folder, n, given.rounds),
         "growth": growth_lines,

@@ -18,12 +18,13 @@ TICKS_S = (1e-7, 1e-8, 1e-9)
 
 
 class FineAxis(NamedTuple):
-    """An axis over its moved mass: k/m 1/s², damper 1/s, friction µm/s², viscous 1/s, half the backlash µm.
+    """An axis over its moved mass, kg: k/m 1/s², damper 1/s, friction µm/s², viscous 1/s, half the backlash µm.
 
     Then the largest force over the mass, µm/s², the electrical period, µm, the time of a step, s, and the ends of the
     travel, µm.
     """
 
+    mass_kg: float
     spring: float
     damper: float
     friction: float
@@ -41,6 +42,7 @@ def fine_axis(model: TableModel, axis: int) -> FineAxis:
     mass = (model.saddle_mass_kg, 0.0)[axis] + model.carriage_mass_kg
     spring = model.drive_stiffness_n_um * 1e6 / mass
     return FineAxis(
+        mass_kg=mass,
         spring=spring,
         damper=2.0 * model.drive_damping_ratio * math.sqrt(spring),
         friction=model.friction_n[axis] * 1e6 / mass,
@@ -53,10 +55,23 @@ def fine_axis(model: TableModel, axis: int) -> FineAxis:
 
 
 class Fine(NamedTuple):
-    """Places (n,) µm at the samples, way lost, and all of it where it was made good, µm; whether finer ticks agree."""
+    """What an axis does in fine ticks.
+
+    Attributes
+    ----------
+    at_um
+        (n,) places at the samples.
+    lost_um
+        Way lost, and all of it where it was made good.
+    farthest
+        (3,) how far velocity, µm/s, lag, µm, and force over the mass, µm/s², come from 0.
+    settled
+        Whether finer ticks agree.
+    """
 
     at_um: Floats
     lost_um: float
+    farthest: Floats
     settled: bool
 
 
@@ -64,18 +79,19 @@ def followed(axis: FineAxis, t_s: Floats, place_um: Floats, sample_s: Floats, wi
     """An axis that follows steps at times (m,) to places (m,), in ever finer ticks until two agree."""
     before = None
     for tick_s in TICKS_S:
-        at_um = np.empty(len(sample_s))
-        lost_um = _run(axis, (t_s, place_um), sample_s, tick_s, at_um)
+        at_um, farthest = np.empty(len(sample_s)), np.zeros(3)
+        lost_um = _run(axis, (t_s, place_um), sample_s, tick_s, (at_um, farthest))
         if before is not None and lost_um == before.lost_um and np.abs(at_um - before.at_um).max() < within_um:
-            return Fine(at_um, lost_um, True)
-        before = Fine(at_um, lost_um, False)
+            return Fine(at_um, lost_um, farthest, True)
+        before = Fine(at_um, lost_um, farthest, False)
     assert before is not None
     return before
 
 
 @numba.njit
-def _run(axis, steps, sample_s, tick_s, at_um):  # type: ignore[no-untyped-def]
-    """Fill in the places of the slide at the samples; what its motor lost in all."""
+def _run(axis, steps, sample_s, tick_s, into):  # type: ignore[no-untyped-def]
+    """Fill in the places of the slide at the samples, and how far it comes; what its motor lost in all."""
+    at_um, farthest = into
     at = velocity = lost = lost_either_way = 0.0
     span, sample = (0, 0), 0
     for number in range(int(sample_s[-1] / tick_s) + 2):
@@ -87,6 +103,8 @@ def _run(axis, steps, sample_s, tick_s, at_um):  # type: ignore[no-untyped-def]
         slip = _slip(axis, motor - lost - at)
         lost, lost_either_way = lost + slip, lost_either_way + abs(slip)
         force = _force(axis, motor - lost - at, speed, velocity)
+        farthest[0], farthest[1] = max(farthest[0], abs(velocity)), max(farthest[1], abs(motor - lost - at))
+        farthest[2] = max(farthest[2], abs(force))
         velocity += tick_s * (force - axis.viscous * velocity)
         rub = axis.friction * tick_s
         velocity = max(velocity - rub, 0.0) + min(velocity + rub, 0.0)

@@ -325,7 +325,7 @@ def test_a_lag_leaves_steps_and_table_as_they_are() -> None:
 @pytest.mark.parametrize(
     ("table", "low_um", "high_um"),
     [
-        ({"backlash_um": (10.0, 10.0), "friction_n": (5.0, 5.0), "viscous_n_s_mm": (0.0, 0.0)}, 4.95, 5.15),
+        ({"backlash_um": (10.0, 10.0), "friction_n": (5.0, 5.0), "viscous_n_s_mm": (0.0, 0.0)}, 4.95, 5.05),
         ({"backlash_um": (0.0, 0.0), "friction_n": (200.0, 200.0), "viscous_n_s_mm": (0.0, 0.0)}, 3.75, 4.0),
         ({"backlash_um": (10.0, 10.0), "friction_n": (200.0, 200.0), "viscous_n_s_mm": (0.0, 0.0)}, 8.75, 9.0),
     ],

@@ -9,13 +9,13 @@ from subprocess import CompletedProcess
 from fuzzing.iso_text import fuzzed_iso
 from fuzzing.pmac_text import fuzzed_pmac
 from fuzzing.program_text import fuzzed_program
-from fuzzing.promises import of_document, unclean
+from fuzzing.promises import of_document, of_place, of_texts, unclean
 from fuzzing.ran import answer_of, broken_by, ran
 from fuzzing.target import Input, Judged
-from parser.findings.catalogue import LANGUAGES, texts
-from parser.findings.codes import CODES, Severity
+from parser.findings.catalogue import LANGUAGES
+from parser.findings.codes import Severity
 from parser.findings.errors import ProgramError
-from parser.findings.findings import Finding, edited
+from parser.findings.findings import edited
 from parser.text.encoding import decode_text, encode_text
 from parser.text.source import LineIndex
 from sim.check.file_check import Job, check_file
@@ -103,27 +103,10 @@ def _of_findings(result: CheckResult, data: bytes) -> Iterator[str]:
     except ValueError:
         lines = None
     for finding in result.findings:
-        if finding.code not in CODES:
-            yield f"{finding.code} is no code"
-            continue
-        for language in LANGUAGES:
-            if "\n" in texts(finding, language).message or not texts(finding, language).message:
-                yield f"{finding.code} has no line of text in {language}"
-        yield from _of_place(finding, lines)
+        yield from of_texts(finding)
+        yield from of_place(finding, lines)
         if finding.line and finding.line not in result.excerpts:
             yield f"{finding.code} points at line {finding.line} without an excerpt"
-
-
-def _of_place(finding: Finding, lines: LineIndex | None) -> Iterator[str]:
-    first, past = finding.span
-    if not finding.line:
-        if finding.span != (0, 0):
-            yield f"{finding.code} has a span and no line"
-        return
-    if lines is None or not 0 <= first <= past <= len(lines.text):
-        yield f"{finding.code} points beyond the text at {finding.span}"
-    elif (finding.line, finding.column) != (lines.line(first), lines.column(first)):
-        yield f"{finding.code} at {finding.span} names {finding.line}:{finding.column}"
 
 
 def _of_verdict(result: CheckResult) -> Iterator[str]:

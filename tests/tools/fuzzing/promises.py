@@ -1,9 +1,14 @@
-"""Promises of all that is printed: no control characters, and documents that their own readers read."""
+"""Promises of all that is printed: no control characters, documents that their readers read, findings with a place."""
 
 import json
 import re
 from collections.abc import Iterator
 from xml.etree import ElementTree as ET
+
+from parser.findings.catalogue import LANGUAGES, texts
+from parser.findings.codes import CODES
+from parser.findings.findings import Finding
+from parser.text.source import LineIndex
 
 # C0 but for tab and newline, DEL and C1; lone surrogates; marks that turn the direction of text (Unicode, UAX #9).
 _UNCLEAN = re.compile(
@@ -32,3 +37,26 @@ def of_document(name: str, text: str) -> Iterator[str]:
 
 def _no_json(constant: str) -> None:
     raise ValueError(f"{constant} is no JSON")
+
+
+def of_texts(finding: Finding) -> Iterator[str]:
+    """A finding has a known code, and a line of text in every language."""
+    if finding.code not in CODES:
+        yield f"{finding.code} is no code"
+        return
+    for language in LANGUAGES:
+        message = texts(finding, language).message
+        if not message or "\n" in message:
+            yield f"{finding.code} has no line of text in {language}"
+
+
+def of_place(finding: Finding, lines: LineIndex | None) -> Iterator[str]:
+    """A finding has a place in a text, its line and column are those of it; `lines` is None where there is no text."""
+    first, past = finding.span
+    if not finding.line:
+        if finding.span != (0, 0):
+            yield f"{finding.code} has a span and no line"
+    elif lines is None or not 0 <= first <= past <= len(lines.text):
+        yield f"{finding.code} points beyond the text at {finding.span}"
+    elif (finding.line, finding.column) != (lines.line(first), lines.column(first)):
+        yield f"{finding.code} at {finding.span} names {finding.line}:{finding.column}"

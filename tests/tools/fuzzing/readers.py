@@ -15,12 +15,11 @@ import numpy as np
 from fuzzing.iso_text import fuzzed_iso
 from fuzzing.pmac_text import fuzzed_pmac
 from fuzzing.program_text import fuzzed_program
+from fuzzing.promises import of_place, of_texts
 from fuzzing.target import Input, Judged
 from parser.dialect.reader import UNITS, Choices, Marks
-from parser.findings.catalogue import LANGUAGES, texts
-from parser.findings.codes import CODES, Severity
+from parser.findings.codes import Severity
 from parser.findings.errors import ProgramError
-from parser.findings.findings import Finding
 from parser.geometry.curves import CurveKind
 from parser.program import Program, dialects, load_program
 from parser.text.encoding import encode_text
@@ -55,12 +54,12 @@ def judge(data: Input, number: int, _: Path) -> Judged:
         program = load_program(data, name, choices)
     except ProgramError as error:
         found = (error.finding, *error.others)
-        return Judged(repr(found), list(chain.from_iterable(map(_of_texts, found))), "refused")
+        return Judged(repr(found), list(chain.from_iterable(map(of_texts, found))), "refused")
     broken = [*_of_text(program, data), *_of_rows(program), *_of_curves(program)]
-    broken += chain.from_iterable(_of_place(one, program) for one in program.findings)
+    broken += chain.from_iterable(of_place(one, program.lines) for one in program.findings)
     if number % _AGAIN == 0:
         broken += _of_encoding(program, name)
-        broken += chain.from_iterable(_of_texts(one) for one in program.findings)
+        broken += chain.from_iterable(of_texts(one) for one in program.findings)
     return Judged(
         repr((program.findings, program.toolpath.end_um.tobytes())), broken, program.reading.dialect.split()[0]
     )
@@ -70,28 +69,6 @@ def _of_text(program: Program, data: bytes) -> Iterator[str]:
     """The text is written back to the bytes that were read."""
     if encode_text(program.text, program.encoding) != data:
         yield f"{program.encoding} is not written back as it was"
-
-
-def _of_texts(finding: Finding) -> Iterator[str]:
-    """A finding has a known code, and a line of text in every language."""
-    if finding.code not in CODES:
-        yield f"{finding.code} is no code"
-        return
-    for language in LANGUAGES:
-        message = texts(finding, language).message
-        if not message or "\n" in message:
-            yield f"{finding.code} has no line of text in {language}"
-
-
-def _of_place(finding: Finding, program: Program) -> Iterator[str]:
-    """A finding has a place in the text, where it has one."""
-    if not finding.line:
-        return
-    first, past = finding.span
-    if not 0 <= first <= past <= len(program.text):
-        yield f"{finding.code} points beyond the text at {finding.span}"
-    elif (finding.line, finding.column) != (program.lines.line(first), program.lines.column(first)):
-        yield f"{finding.code} at {finding.span} names {finding.line}:{finding.column}"
 
 
 def _of_rows(program: Program) -> Iterator[str]:
