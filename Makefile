@@ -113,11 +113,12 @@ lock: $(READY)
 		$(BIN)/uv pip compile --quiet --universal --python-version 3.11 --constraint requirements-lock.txt \
 		--generate-hashes --no-header --output-file requirements-build-lock.txt -
 
-# What a release consists of, in `dist/`: the packages, locks of the core and of all extras, and an SBOM of what they
-# install, with licences.
+# What a release consists of, in `dist/`: the packages, among them a wheel with the machine code of all loops for this
+# system, locks of the core and of all extras, and an SBOM of what they install, with licences.
 release: $(READY)
 	rm -rf dist
 	$(BIN)/python -m hatchling build
+	HATCH_BUILD_HOOKS_ENABLE=1 $(BIN)/python -m hatchling build --target wheel
 	$(PYTHON) -m venv dist/.tools
 	dist/.tools/bin/pip install --quiet --disable-pip-version-check cyclonedx-bom
 	cp requirements-core-lock.txt requirements-all-lock.txt dist

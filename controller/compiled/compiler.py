@@ -15,19 +15,13 @@ import numpy as np
 from numba import types
 from numba.core import codegen
 from numba.extending import typeof_impl
-from numpy.typing import NDArray
 
-from controller.compiled.machine_code import MachineCode, Shape, target_machine
+from controller.compiled.fields import WORDS
+from controller.compiled.machine_code import PROCESSOR, MachineCode, Shape, target_machine
 
 _OPTIONS: Final = {"error_model": "numpy", "_nrt": False, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 """Without its run time (``_nrt``) no array can be made in a loop, and no references are counted."""
-_TYPES: Final[dict[Any, types.Type]] = {
-    float: types.float64,
-    int: types.int64,
-    bool: types.boolean,
-    NDArray[np.float64]: types.float64[::1],
-    NDArray[np.int64]: types.int64[::1],
-}
+numba.config.CPU_NAME, numba.config.CPU_FEATURES = PROCESSOR, ""
 
 
 class Source(Protocol):
@@ -91,8 +85,8 @@ def _type_of_loop(loop: Source, context: object) -> types.Type:
 @cache
 def _dispatcher(loop: Source) -> Any:
     """A loop as numba has it, compiled."""
-    inlined = {"forceinline": True} if loop.tuples else {}
-    return numba.njit(_signature(loop.signature, loop.tuples), **_OPTIONS, **inlined)(loop.function)
+    inlined = bool(loop.tuples)  # said of each: numba would take it from the loop that calls
+    return numba.njit(_signature(loop.signature, loop.tuples), **_OPTIONS, forceinline=inlined)(loop.function)
 
 
 def _signature(text: str, tuples: tuple[type, ...]) -> Any:
@@ -102,7 +96,9 @@ def _signature(text: str, tuples: tuple[type, ...]) -> Any:
 
 def _tuple_type(each: type) -> types.Type:
     """Type of a NamedTuple; numba has one of its own for those with fields that are all alike."""
-    fields = tuple(_TYPES[of] if of in _TYPES else _tuple_type(of) for of in get_type_hints(each).values())
+    fields = tuple(
+        _signature(WORDS[of], ()) if of in WORDS else _tuple_type(of) for of in get_type_hints(each).values()
+    )
     if len(set(fields)) == 1:
         return types.NamedUniTuple(fields[0], len(fields), each)
     return types.NamedTuple(fields, each)

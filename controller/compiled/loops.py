@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, TypeVar, cast, get_type_hints
 
 from controller.compiled.compiling import compiling
+from controller.compiled.fields import fields_of
 
 if TYPE_CHECKING:
     from controller.compiled.machine_code import MachineCode
@@ -36,12 +37,19 @@ class Loop:
         What it is made of.
     signature, tuples
         As `compiled` has them.
+    is_part
+        Whether it is made for other loops alone, by `loop_part`.
     """
 
-    def __init__(self, function: Callable[..., Any], signature: str, tuples: tuple[type, ...]) -> None:
-        self.function, self.signature, self.tuples = function, signature, tuples
+    def __init__(self, function: Callable[..., Any], signature: str, tuples: tuple[type, ...], is_part: bool) -> None:
+        self.function, self.signature, self.tuples, self.is_part = function, signature, tuples, is_part
         self._code: Callable[..., Any] | None = None
         update_wrapper(self, function)
+
+    @property
+    def name(self) -> str:
+        """Its module and its function."""
+        return f"{self.function.__module__}.{self.function.__name__}"
 
     @cached_property
     def digest(self) -> str:
@@ -65,13 +73,12 @@ class Loop:
             return self._code
 
     def _machine_code(self) -> "MachineCode":
-        from controller.compiled.machine_code import store, stored  # noqa: PLC0415 - loaded with the machine code
+        from controller.compiled.entries import store, stored  # noqa: PLC0415 - loaded with the machine code
 
-        name = f"{self.function.__module__}.{self.function.__name__}"
-        if (code := stored(name, self.digest)) is None:
+        if (code := stored(self.name, self.digest)) is None:
             compiling()
             code = _made_of(self)
-            store(name, self.digest, code)
+            store(self.name, self.digest, code)
         return code
 
 
@@ -86,18 +93,28 @@ def compiled(signature: str, *tuples: type) -> Callable[[Function], Function]:
     """Compile a function for a signature in numba's words, such as ``"f8(f8[::1], i8)"``, when it is first called.
 
     A signature may also name NamedTuples, which are given as `tuples`: ``"(Drive, f8)"``. Their fields are floats,
-    ints, bools, arrays (n,) of float64 or int64, and other such tuples. Such a function becomes a part of the loops
-    that call it. Without a result before its bracket, the result is what the function makes; where that is a
-    NamedTuple, the function's annotation names it.
+    ints, bools, arrays (n,) of float64 or int64, and other such tuples. Such a function becomes a part of each place
+    that calls it: to hand its tuples over takes a third of the time of the table. Without a result before its bracket,
+    the result is what the function makes; where that is a NamedTuple, the function's annotation names it.
 
-    Its code stays in the user's cache folder, or where the environment's ``NUMBA_CACHE_DIR`` says; where neither can
-    be written, it is compiled again in each process. Division by zero gives infinities and NaN, as in numpy.
+    The package may bring its code (`controller.compiled.entries`). What is compiled here stays in the user's cache
+    folder, or where the environment's ``NUMBA_CACHE_DIR`` says; where neither can be written, it is compiled again in
+    each process. Division by zero gives infinities and NaN, as in numpy.
     """
 
     def compiled_loop(function: Function) -> Function:
-        return cast("Function", Loop(function, signature, tuples))
+        return cast("Function", Loop(function, signature, tuples, is_part=False))
 
     return compiled_loop
+
+
+def loop_part(signature: str, *tuples: type) -> Callable[[Function], Function]:
+    """Like `compiled`, of a function that other loops alone call: set-up makes no code of its own for it."""
+
+    def part(function: Function) -> Function:
+        return cast("Function", Loop(function, signature, tuples, is_part=True))
+
+    return part
 
 
 _MAKERS: Final = tuple(str(Path(__file__).with_name(name)) for name in ("compiler.py", "machine_code.py"))
@@ -113,5 +130,5 @@ def _text_of(name: str, value: object, module: str) -> str:
     if isinstance(value, Loop):
         return value.digest if value.function.__module__ != module else ""
     if isinstance(value, type) and hasattr(value, "_fields"):
-        return f"{name}: {get_type_hints(value)}"
+        return f"{name}: {fields_of(value)}"
     return f"{name} = {value!r}" if isinstance(value, int | float) else ""

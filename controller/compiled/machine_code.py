@@ -1,34 +1,24 @@
-"""Machine code of loops: where it stays on disk, how it is loaded, and how it is called.
+"""Machine code of loops: how it is linked into the process, and how it is called.
 
-Where machine code stays on disk: an entry each, sealed by its digest.
+The code is for any processor of its architecture, so that a package can bring it, and one figure is one figure on all
+of them: what newer processors add makes no loop here more than 3 % faster (measured on one with AVX-512). It is an
+object file in memory, which LLVM links into the process.
 
-An entry that is cut off, damaged or of another machine counts as none; one that cannot be written is done without. So
-no fault of the disk ends a command.
-
-The code is an object file in memory, which LLVM links into the process. It is called as numba calls it within its own
-code (`numba.core.callconv.CPUCallConv`): a status comes back; what the loop gives is written where the first argument
-points, and the second would point to an exception. Then come the arguments, taken apart: of a tuple its fields, of an
-array two owners, which are none here, its number of items and the bytes of one, where it begins, its lengths and its
-strides (`numba.core.datamodel.models.ArrayModel`).
+It is called as numba calls it within its own code (`numba.core.callconv.CPUCallConv`): a status comes back; what the
+loop gives is written where the first argument points, and the second would point to an exception. Then come the
+arguments, taken apart: of a tuple its fields, of an array two owners, which are none here, its number of items and the
+bytes of one, where it begins, its lengths and its strides (`numba.core.datamodel.models.ArrayModel`).
 """
 
-import contextlib
 import ctypes
-import hashlib
-import json
-import os
-import tempfile
 import threading
 from collections.abc import Callable, Iterator
 from functools import cache
 from operator import index
-from pathlib import Path
 from typing import Any, Final, NamedTuple, get_args, get_type_hints
 
-import llvmlite
 import llvmlite.binding as llvm
 import numpy as np
-import platformdirs
 
 from controller.compiled.signals import signals_wait
 
@@ -68,7 +58,7 @@ class MachineCode(NamedTuple):
     takes, gives
         Its arguments and its result.
     object_code
-        The object file, of the machine that it was made on.
+        The object file, of the system and the architecture that it was made on.
     """
 
     symbol: str
@@ -77,20 +67,16 @@ class MachineCode(NamedTuple):
     object_code: bytes
 
 
+PROCESSOR: Final = "generic"
+"""LLVM's name of the least processor of an architecture."""
+
+
 @cache
 def target_machine() -> llvm.TargetMachine:
-    """The machine that runs, as LLVM makes code for it."""
+    """Any processor of this architecture, as LLVM makes code for it."""
     llvm.initialize_native_target()
     llvm.initialize_native_asmprinter()
-    cpu, features = llvm.get_host_cpu_name(), llvm.get_host_cpu_features().flatten()
-    return llvm.Target.from_default_triple().create_target_machine(cpu, features, opt=3, jit=True)
-
-
-@cache
-def machine() -> str:
-    """What code on disk depends on: the processor, and the release of llvmlite, of which each of numba has its own."""
-    features = llvm.get_host_cpu_features().flatten()
-    return f"{llvm.get_default_triple()} {llvm.get_host_cpu_name()} {features} {llvmlite.__version__}"
+    return llvm.Target.from_default_triple().create_target_machine(PROCESSOR, "", opt=3, jit=True)
 
 
 def function_of(code: MachineCode, result: Any) -> Callable[..., Any]:
@@ -216,71 +202,3 @@ def _tuple_reader(shape: Shape, result: Any) -> Callable[[Any], Any]:
         return whole(value if each is None else each(value) for each, value in zip(inner, values, strict=True))
 
     return read
-
-
-_SEAL: Final = hashlib.sha256().digest_size
-_LETTERS: Final = 16
-"""Of the digest in the name of an entry."""
-_LATEST: Final = 4
-"""Entries of a loop that stay: of as many releases, or machines that share a home."""
-
-
-def folder() -> Path:
-    """The folder of the entries: that of the environment's ``NUMBA_CACHE_DIR``, or in the user's cache folder."""
-    own = os.environ.get("NUMBA_CACHE_DIR")
-    return Path(own) if own else Path(platformdirs.user_cache_dir("drycut", appauthor=False)) / "loops"
-
-
-def stored(name: str, digest: str) -> MachineCode | None:
-    """The machine code of a loop, by its name and the digest of its sources; None where there is none that is whole."""
-    try:
-        entry = _path(name, digest).read_bytes()
-    except OSError:
-        return None
-    seal, rest = entry[:_SEAL], entry[_SEAL:]
-    if hashlib.sha256(rest).digest() != seal:
-        return None
-    head, object_code = rest.split(b"\n", 1)
-    symbol, takes, gives = json.loads(head)
-    return MachineCode(symbol, tuple(map(_shape, takes)), _shape(gives), object_code)
-
-
-def store(name: str, digest: str, code: MachineCode) -> None:
-    """Keep the machine code of a loop, where that can be done."""
-    head = json.dumps([code.symbol, code.takes, code.gives]).encode()
-    rest = head + b"\n" + code.object_code
-    with contextlib.suppress(OSError):
-        path = _path(name, digest)
-        path.parent.mkdir(parents=True, exist_ok=True)
-        _write(path, hashlib.sha256(rest).digest() + rest)
-        _clear(path.parent, name)
-
-
-def _clear(entries_in: Path, name: str) -> None:
-    """Remove the entries of a loop but for the latest: each change of its sources adds one."""
-    entries = sorted(entries_in.glob(f"{name}-{'?' * _LETTERS}.loop"), key=lambda entry: entry.stat().st_mtime)
-    for entry in entries[:-_LATEST]:
-        entry.unlink(missing_ok=True)
-
-
-def _write(path: Path, entry: bytes) -> None:
-    """Write an entry whole: another process may read or write it meanwhile. OSError where that cannot be done."""
-    number, draft = tempfile.mkstemp(dir=path.parent)
-    try:
-        with os.fdopen(number, "wb") as file:
-            file.write(entry)
-        Path(draft).replace(path)
-    except OSError:
-        with contextlib.suppress(OSError):
-            Path(draft).unlink()
-        raise
-
-
-def _path(name: str, digest: str) -> Path:
-    own = hashlib.sha256(f"{digest} {machine()}".encode()).hexdigest()[:_LETTERS]
-    return folder() / f"{name}-{own}.loop"
-
-
-def _shape(listed: Any) -> Shape:
-    kind, name, dimensions, fields = listed
-    return Shape(kind, name, dimensions, tuple(map(_shape, fields)))

@@ -1,8 +1,10 @@
 """All compiled loops, compiled beforehand: ``python -m sim.cli.compile``, as setting up does."""
 
 import importlib
+from pathlib import Path
 from typing import Final
 
+from controller.compiled.entries import file_of, folder
 from controller.compiled.loops import Loop
 
 LOOPS: Final[tuple[str, ...]] = (
@@ -31,12 +33,14 @@ LOOPS: Final[tuple[str, ...]] = (
 """Modules with compiled loops."""
 
 
-def compile_loops() -> None:
-    """Compile all loops of `LOOPS` that are not on disk yet."""
-    for module in LOOPS:
-        for value in vars(importlib.import_module(module)).values():
-            if isinstance(value, Loop):
-                value.loaded()
+def compile_loops() -> tuple[Path, ...]:
+    """Compile the loops of `LOOPS` that Python calls and that are not on disk yet; the files of their machine code."""
+    modules = map(importlib.import_module, LOOPS)
+    loops = [each for module in modules for each in vars(module).values() if isinstance(each, Loop)]
+    called = [loop for loop in loops if not loop.is_part]
+    for loop in called:
+        loop.loaded()
+    return tuple(folder() / file_of(loop.name, loop.digest) for loop in called)
 
 
 if __name__ == "__main__":

@@ -14,7 +14,7 @@ import shapely
 from shapely import ops
 from shapely.geometry.base import BaseGeometry
 
-from controller.compiled.loops import compiled
+from controller.compiled.loops import compiled, loop_part
 from parser.geometry.curves import Floats, Ints
 from parser.toolpath import Point
 from sim.cut.pieces.pieces import Piece, Pieces
@@ -91,7 +91,7 @@ def _first_round(of: Sides, sides: Sides, about_um: Floats, sense: int) -> _Firs
     return _First(by, of.start[at] if at >= 0 else np.full(2, np.nan))
 
 
-@compiled("Tuple((f8, i8))(f8[:,::1], f8[:,::1], f8[:,::1])")
+@loop_part("Tuple((f8, i8))(f8[:,::1], f8[:,::1], f8[:,::1])")
 def _ahead(corner: Floats, start: Floats, end: Floats) -> tuple[float, int]:
     """The shortest way along the first axis from a corner (c, 2) to a side (m, 2), and which corner; inf and −1."""
     least, first = np.inf, -1

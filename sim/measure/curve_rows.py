@@ -8,7 +8,7 @@ from typing import Final
 
 import numpy as np
 
-from controller.compiled.loops import compiled
+from controller.compiled.loops import loop_part
 from parser.geometry.curves import Curves, Floats
 
 _START_X, _START_Y, _END_X, _END_Y = 0, 1, 2, 3
@@ -37,7 +37,7 @@ def curve_rows(curves: Curves) -> Floats:
     return row
 
 
-@compiled("Tuple((f8, i8))(f8[::1], f8, f8)")
+@loop_part("Tuple((f8, i8))(f8[::1], f8, f8)")
 def _away_from_line(line: Floats, x: float, y: float) -> tuple[float, int]:
     """As `away_from`."""
     out_x, out_y = x - line[_START_X], y - line[_START_Y]
@@ -51,7 +51,7 @@ def _away_from_line(line: Floats, x: float, y: float) -> tuple[float, int]:
     return abs(across), 0
 
 
-@compiled("Tuple((f8, i8))(f8[::1], f8, f8)")
+@loop_part("Tuple((f8, i8))(f8[::1], f8, f8)")
 def _away_from_arc(arc: Floats, x: float, y: float) -> tuple[float, int]:
     """As `away_from`. Outside of the sweep, the half of the open sector nearer the end is past it."""
     out_x, out_y, sweep = x - arc[_CENTER_X], y - arc[_CENTER_Y], arc[_SWEEP]
@@ -65,13 +65,13 @@ def _away_from_arc(arc: Floats, x: float, y: float) -> tuple[float, int]:
     return math.hypot(out_x, out_y), beyond
 
 
-@compiled("Tuple((f8, i8))(f8[::1], f8, f8)")
+@loop_part("Tuple((f8, i8))(f8[::1], f8, f8)")
 def away_from(curve: Floats, x: float, y: float) -> tuple[float, int]:
     """Distance µm of a place from a curve, its ends included, and −1, 0, +1: before, beside, past the curve."""
     return _away_from_arc(curve, x, y) if curve[IS_ARC] else _away_from_line(curve, x, y)
 
 
-@compiled("f8(f8[::1], f8, f8, f8)")
+@loop_part("f8(f8[::1], f8, f8, f8)")
 def distance_from(curve: Floats, x: float, y: float, within_um: float) -> float:
     """Distance µm of a place from a curve; where it is beyond a bound, anything between the two."""
     if curve[IS_ARC]:
@@ -82,7 +82,7 @@ def distance_from(curve: Floats, x: float, y: float, within_um: float) -> float:
     return away_from(curve, x, y)[0]
 
 
-@compiled("f8(f8[::1], f8, f8)")
+@loop_part("f8(f8[::1], f8, f8)")
 def side_of(curve: Floats, x: float, y: float) -> float:
     """+1 left of a curve in its direction and on it, −1 right of it."""
     if curve[IS_ARC]:
@@ -94,13 +94,13 @@ def side_of(curve: Floats, x: float, y: float) -> float:
     return -1.0 if out_x * by_y > out_y * by_x else 1.0
 
 
-@compiled("f8(f8[::1], f8)")
+@loop_part("f8(f8[::1], f8)")
 def angle_at(arc: Floats, share: float) -> float:
     """Angle of the radius at a share of an arc's length."""
     return float(arc[_ANGLE] + share * arc[_TURN] * arc[_SWEEP])
 
 
-@compiled("f8(f8[::1], f8, f8)")
+@loop_part("f8(f8[::1], f8, f8)")
 def foot_angle(arc: Floats, x: float, y: float) -> float:
     """Angle of the radius at the place of an arc nearest to another place; it runs on as the sweep does."""
     turned = ((math.atan2(y - arc[_CENTER_Y], x - arc[_CENTER_X]) - arc[_ANGLE]) * arc[_TURN]) % _FULL_TURN_RAD
@@ -109,7 +109,7 @@ def foot_angle(arc: Floats, x: float, y: float) -> float:
     return float(arc[_ANGLE] + arc[_TURN] * turned)
 
 
-@compiled("UniTuple(f8, 2)(f8[::1], f8)")
+@loop_part("UniTuple(f8, 2)(f8[::1], f8)")
 def place_at(curve: Floats, share: float) -> tuple[float, float]:
     """Place at a share of the length of a line or an arc."""
     if curve[IS_ARC]:

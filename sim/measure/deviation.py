@@ -23,7 +23,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.compiled.loops import compiled
+from controller.compiled.loops import compiled, loop_part
 from parser.geometry.curves import Floats, Ints
 from parser.geometry.distance import feet
 from parser.toolpath import Toolpath
@@ -69,7 +69,7 @@ class Deviation(NamedTuple):
     by_row_um: Floats
 
 
-@compiled("f8(f8[:, ::1], i8, f8, f8)")
+@loop_part("f8(f8[:, ::1], i8, f8, f8)")
 def away_from_path(blocks: Floats, row: int, x: float, y: float) -> float:
     """Distance µm of a place that belongs to a block; past an end the neighbour there counts where it is nearer."""
     away, beyond = away_from(blocks[row], x, y)
@@ -196,7 +196,7 @@ def across_um(toolpath: Toolpath, trace: Trace, place_um: Floats, along_um: Floa
     return _measured(toolpath, trace, place_um, along_um)[1]
 
 
-@compiled("Tuple((i8, f8))(f8[:, ::1], i8, f8, f8, i8, f8)")
+@loop_part("Tuple((i8, f8))(f8[:, ::1], i8, f8, f8, i8, f8)")
 def _nearer(  # noqa: PLR0913, PLR0917 - a compiled loop hands over numbers one by one
     blocks: Floats, row: int, x: float, y: float, best: int, away: float
 ) -> tuple[int, float]:

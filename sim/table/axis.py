@@ -7,7 +7,7 @@ its step rate is taken anew, and where a servo of the table trips.
 import math
 from typing import NamedTuple
 
-from controller.compiled.loops import compiled
+from controller.compiled.loops import loop_part
 from sim.table.course import LIMITED, LOOSE, STILL_UM, Body, Bounds, Course, Hold, anew
 from sim.table.events import NOTHING, SLIPS, after_event, end_of
 from sim.table.rating import Rating, Strength, Train, Turn, rated, turned
@@ -119,21 +119,21 @@ def standing(at_um: float) -> Course:
     return Course(at_um, 0.0, 0.0, 0.0, Hold(0, LOOSE, 0), 0.0, False)
 
 
-@compiled("(Axis, AxisDemand, Rating)", Axis, AxisDemand, Rating)
+@loop_part("(Axis, AxisDemand, Rating)", Axis, AxisDemand, Rating)
 def bounds_of(axis: Axis, demand: AxisDemand, rating: Rating) -> Bounds:
     """What its motor can do at its step rate. Where a servo is known to have tripped, none trips before it."""
     trip_um = axis.trip_um if demand.braked_s == math.inf else math.inf
     return Bounds(rating.limit, min(rating.pull_out_um, trip_um))
 
 
-@compiled("f8(Axis, AxisDemand, Turn)", Axis, AxisDemand, Turn)
+@loop_part("f8(Axis, AxisDemand, Turn)", Axis, AxisDemand, Turn)
 def _corner_s(axis: Axis, demand: AxisDemand, turn: Turn) -> float:
     """When a motor begins or ends a step next."""
     ends_s = demand.train.t_s[turn.done] + axis.step_time_s if turn.done < turn.begun else math.inf
     return float(min(demand.train.t_s[turn.begun], ends_s))
 
 
-@compiled("(Axis, Course, f8)", Axis, Course)
+@loop_part("(Axis, Course, f8)", Axis, Course)
 def _slipped(axis: Axis, course: Course, pull_out_um: float) -> Course:
     """A course after its motor has slipped: whole electrical periods, until the lag is within the pull-out again."""
     period_um = axis.strength.period_um
@@ -142,7 +142,7 @@ def _slipped(axis: Axis, course: Course, pull_out_um: float) -> Course:
     return Course(course.at_um, course.velocity, lag_um, course.motor_um_s, course.hold, course.force, course.braked)
 
 
-@compiled("(Course,)", Course)
+@loop_part("(Course,)", Course)
 def _braked(course: Course) -> Course:
     """A course from where a servo has tripped on, or has braked for some time."""
     velocity = course.velocity if abs(course.velocity) > 2.0 * _BRAKED_TO else 0.0
@@ -150,7 +150,7 @@ def _braked(course: Course) -> Course:
     return Course(course.at_um, velocity, course.lag_um, course.motor_um_s, Hold(0, LOOSE, way), 0.0, True)
 
 
-@compiled("(Axis, AxisDemand, State)", Axis, AxisDemand, State)
+@loop_part("(Axis, AxisDemand, State)", Axis, AxisDemand, State)
 def turned_to(axis: Axis, demand: AxisDemand, state: State) -> State:
     """An axis whose motor has begun and ended the steps that are due, and what it can do is known for now."""
     t_s, course, noted = state.t_s, state.course, state.noted
@@ -179,7 +179,7 @@ def turned_to(axis: Axis, demand: AxisDemand, state: State) -> State:
     return _stilled(axis, State(t_s, following, lost_um, False, turn, rating, noted, tripped_s))
 
 
-@compiled("(Axis, State)", Axis, State)
+@loop_part("(Axis, State)", Axis, State)
 def _stilled(axis: Axis, state: State) -> State:
     """An axis that rests, where its slide stands and its motor does: without friction once it rings ever so little."""
     course, drive = state.course, axis.body.drive
@@ -197,7 +197,7 @@ def _stilled(axis: Axis, state: State) -> State:
     return State(state.t_s, course, state.lost_um, rests, state.turn, state.rating, state.noted, state.tripped_s)
 
 
-@compiled("(Axis, AxisDemand, State)", Axis, AxisDemand, State)
+@loop_part("(Axis, AxisDemand, State)", Axis, AxisDemand, State)
 def next_leg(axis: Axis, demand: AxisDemand, state: State) -> Leg:
     """What an axis does up to its next event, and its state after that.
 

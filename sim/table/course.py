@@ -7,7 +7,7 @@ way, or stands; its drive gives what the train takes, or all that the motor can.
 import math
 from typing import NamedTuple
 
-from controller.compiled.loops import compiled
+from controller.compiled.loops import loop_part
 from sim.table.drive import Drive
 from sim.table.forms import Oscillation, Pair, Wave, coasting, pair_at, value_of, wave_of
 
@@ -85,21 +85,21 @@ class Course(NamedTuple):
     braked: bool
 
 
-@compiled("f8(Body)", Body)
+@loop_part("f8(Body)", Body)
 def rubs_at(body: Body) -> float:
     """Largest force over the mass that does not move a slide which stands, µm/s²."""
     friction = body.drive.friction
     return friction if friction > 0.0 else STILL_UM * body.drive.spring
 
 
-@compiled("f8(Body, i8, f8, f8)", Body)
+@loop_part("f8(Body, i8, f8, f8)", Body)
 def train_force(body: Body, side: int, lag_um: float, lag_um_s: float) -> float:
     """What spring and damper of a drive train take, over the mass, µm/s², while the nut lies on a flank."""
     drive = body.drive
     return drive.spring * (lag_um - side * drive.slack_um) + drive.damper * lag_um_s
 
 
-@compiled("i8(Body, f8, f8, f8)", Body)
+@loop_part("i8(Body, f8, f8, f8)", Body)
 def way_of(body: Body, at_um: float, velocity: float, force: float) -> int:
     """Which way a slide moves from now on: one that stands goes where it is pushed by more than friction."""
     if velocity != 0.0:
@@ -111,7 +111,7 @@ def way_of(body: Body, at_um: float, velocity: float, force: float) -> int:
     return -1 if at_um > body.low_um else 0
 
 
-@compiled("(Body, Bounds, Course, i8)", Body, Bounds, Course)
+@loop_part("(Body, Bounds, Course, i8)", Body, Bounds, Course)
 def with_grip(body: Body, bounds: Bounds, course: Course, side: int) -> Course:
     """A course whose nut lies on a flank, or in the slack, with its grip, way and force worked out."""
     at_um, velocity, lag_um, motor_um_s = course.at_um, course.velocity, course.lag_um, course.motor_um_s
@@ -126,7 +126,7 @@ def with_grip(body: Body, bounds: Bounds, course: Course, side: int) -> Course:
     return Course(at_um, velocity, lag_um, motor_um_s, Hold(side, grip, way), force, False)
 
 
-@compiled("(Body, Bounds, Course)", Body, Bounds, Course)
+@loop_part("(Body, Bounds, Course)", Body, Bounds, Course)
 def anew(body: Body, bounds: Bounds, course: Course) -> Course:
     """A course after something has jumped: speed of the motor, what it can do, or the place where it stands."""
     side, slack_um = 1, body.drive.slack_um
@@ -137,19 +137,19 @@ def anew(body: Body, bounds: Bounds, course: Course) -> Course:
     return with_grip(body, bounds, course, side)
 
 
-@compiled("f8(Body, Course)", Body, Course)
+@loop_part("f8(Body, Course)", Body, Course)
 def rub_of(body: Body, course: Course) -> float:
     """Coulomb friction against the motion, over the mass, µm/s²."""
     return 0.0 if course.braked else course.hold.way * body.drive.friction
 
 
-@compiled("f8(Body, Course)", Body, Course)
+@loop_part("f8(Body, Course)", Body, Course)
 def drag_of(body: Body, course: Course) -> float:
     """What brakes with speed, 1/s: guides, and the train once a servo has tripped."""
     return body.drive.viscous + (body.drive.damper if course.braked else 0.0)
 
 
-@compiled("f8(Body, Course)", Body, Course)
+@loop_part("f8(Body, Course)", Body, Course)
 def acceleration_of(body: Body, course: Course) -> float:
     """Acceleration at the beginning of a course, µm/s²."""
     if course.hold.way == 0:
@@ -157,7 +157,7 @@ def acceleration_of(body: Body, course: Course) -> float:
     return course.force - rub_of(body, course) - drag_of(body, course) * course.velocity
 
 
-@compiled("f8(Body, Course)", Body, Course)
+@loop_part("f8(Body, Course)", Body, Course)
 def rest_lag(body: Body, course: Course) -> float:
     """Lag at which a driven slide would go on evenly, µm."""
     drive = body.drive
@@ -180,39 +180,39 @@ class Lagging(NamedTuple):
     lag_um_s: float
 
 
-@compiled("(Body, Course)", Body, Course, Lagging)
+@loop_part("(Body, Course)", Body, Course, Lagging)
 def lagging_of(body: Body, course: Course) -> Lagging:
     """How a driven slide lags at the beginning of a course."""
     return Lagging(course.lag_um - rest_lag(body, course), course.motor_um_s - course.velocity)
 
 
-@compiled("f8(Form, Lagging)", Form, Lagging)
+@loop_part("f8(Form, Lagging)", Form, Lagging)
 def value_in(form: Form, lagging: Lagging) -> float:
     """Value of a quantity."""
     return form.level + form.by_lag * lagging.lag_um + form.by_speed * lagging.lag_um_s
 
 
-@compiled("f8(Oscillation, Form, Lagging)", Oscillation, Form, Lagging)
+@loop_part("f8(Oscillation, Form, Lagging)", Oscillation, Form, Lagging)
 def slope_in(swings: Oscillation, form: Form, lagging: Lagging) -> float:
     """How fast a quantity grows."""
     bent = -swings.spring * lagging.lag_um - swings.damping * lagging.lag_um_s
     return form.by_lag * lagging.lag_um_s + form.by_speed * bent
 
 
-@compiled("(Oscillation, Form, Lagging)", Oscillation, Form, Lagging, Wave)
+@loop_part("(Oscillation, Form, Lagging)", Oscillation, Form, Lagging, Wave)
 def wave_in(swings: Oscillation, form: Form, lagging: Lagging) -> Wave:
     """A quantity from the beginning of a course on."""
     away = form.by_lag * lagging.lag_um + form.by_speed * lagging.lag_um_s  # levels may be infinite
     return wave_of(swings, form.level, away, slope_in(swings, form, lagging))
 
 
-@compiled("b1(Course)", Course)
+@loop_part("b1(Course)", Course)
 def is_driven(course: Course) -> bool:
     """Whether a slide moves on its train: else it stands, or coasts."""
     return course.hold.way != 0 and course.hold.grip == DRIVEN and not course.braked
 
 
-@compiled("(Body, Course, f8, Pair)", Body, Course, Pair)
+@loop_part("(Body, Course, f8, Pair)", Body, Course, Pair)
 def driven_to(body: Body, course: Course, after_s: float, pair: Pair) -> Course:
     """A course of a driven slide as it has come to a time, at which both parts of its waves are given."""
     swings, rest_um, lagging, speed = body.swings, rest_lag(body, course), lagging_of(body, course), course.motor_um_s
@@ -223,7 +223,7 @@ def driven_to(body: Body, course: Course, after_s: float, pair: Pair) -> Course:
     return Course(at_um, speed - lag_um_s, lag_um, speed, course.hold, force, False)
 
 
-@compiled("(Body, Course, f8)", Body, Course)
+@loop_part("(Body, Course, f8)", Body, Course)
 def moved(body: Body, course: Course, after_s: float) -> Course:
     """A course as it has come to a time within it."""
     at_um, velocity, lag_um, motor_um_s, hold, force, braked = course

@@ -6,7 +6,7 @@ An event is the first root of a closed form; those that no form can reach in tim
 import math
 from typing import NamedTuple
 
-from controller.compiled.loops import compiled
+from controller.compiled.loops import loop_part
 from sim.table.course import (
     DRIVEN,
     LIMITED,
@@ -55,13 +55,13 @@ class End(NamedTuple):
     last: Course
 
 
-@compiled("(Event, f8, i8, i8)", Event)
+@loop_part("(Event, f8, i8, i8)", Event)
 def _sooner(event: Event, after_s: float, kind: int, way: int) -> Event:
     """The sooner of two events."""
     return Event(max(after_s, 0.0), kind, way) if after_s < event.after_s else event
 
 
-@compiled("f8(f8, f8, f8)")
+@loop_part("f8(f8, f8, f8)")
 def _evenly(value: float, to: float, per_s: float) -> float:
     """Time in which a quantity that grows evenly comes to a value; infinite where it never does."""
     if per_s == 0.0 or (to - value) * per_s < 0.0:
@@ -69,7 +69,7 @@ def _evenly(value: float, to: float, per_s: float) -> float:
     return (to - value) / per_s
 
 
-@compiled("(Body, Bounds, Course, f8)", Body, Bounds, Course, Event)
+@loop_part("(Body, Bounds, Course, f8)", Body, Bounds, Course, Event)
 def _event_at_rest(body: Body, bounds: Bounds, course: Course, until_s: float) -> Event:
     """What ends a course in which a slide stands: all grows evenly."""
     drive, (side, grip, _), speed = body.drive, course.hold, course.motor_um_s
@@ -96,7 +96,7 @@ def _event_at_rest(body: Body, bounds: Bounds, course: Course, until_s: float) -
     return event
 
 
-@compiled("(Body, Bounds, Course, f8)", Body, Bounds, Course, Event)
+@loop_part("(Body, Bounds, Course, f8)", Body, Bounds, Course, Event)
 def _event_coasting(body: Body, bounds: Bounds, course: Course, until_s: float) -> Event:
     """What ends a course in which a slide coasts, but for the stops of the travel."""
     drive, (side, grip, _), drag = body.drive, course.hold, drag_of(body, course)
@@ -129,7 +129,7 @@ def _event_coasting(body: Body, bounds: Bounds, course: Course, until_s: float) 
     return _sooner(event, coast_rises(drag, pushing, event.after_s, least * drive.spring), GRIPS, side)
 
 
-@compiled("(Body, Bounds, Course, Span)", Body, Bounds, Course, Span, Event)
+@loop_part("(Body, Bounds, Course, Span)", Body, Bounds, Course, Span, Event)
 def _event_driven(body: Body, bounds: Bounds, course: Course, span: Span) -> Event:
     """What ends a course in which a slide moves on its train, but for the stops of the travel."""
     drive, swings, (side, _, way) = body.drive, body.swings, course.hold
@@ -149,7 +149,7 @@ def _event_driven(body: Body, bounds: Bounds, course: Course, span: Span) -> Eve
     return event
 
 
-@compiled("(Body, Course, End)", Body, Course, End)
+@loop_part("(Body, Course, End)", Body, Course, End)
 def _or_stop(body: Body, course: Course, end: End) -> End:
     """An end, or that a slide meets a stop of its travel before: until it stands it goes one way."""
     at_um = end.last.at_um
@@ -166,7 +166,7 @@ def _or_stop(body: Body, course: Course, end: End) -> End:
     return End(Event(high_s, STOPS, way), moved(body, course, high_s))
 
 
-@compiled("(Body, Bounds, Course, f8)", Body, Bounds, Course, End)
+@loop_part("(Body, Bounds, Course, f8)", Body, Bounds, Course, End)
 def end_of(body: Body, bounds: Bounds, course: Course, until_s: float) -> End:
     """The end of a course that can last until a time after its beginning."""
     if is_driven(course):
@@ -183,7 +183,7 @@ def end_of(body: Body, bounds: Bounds, course: Course, until_s: float) -> End:
     return _or_stop(body, course, End(event, moved(body, course, event.after_s)))
 
 
-@compiled("(Body, Bounds, Course, Event)", Body, Bounds, Course, Event)
+@loop_part("(Body, Bounds, Course, Event)", Body, Bounds, Course, Event)
 def after_event(body: Body, bounds: Bounds, course: Course, event: Event) -> Course:
     """The course that an event begins; `course` is the one before it as it has come to the event."""
     at_um, velocity, lag_um, motor_um_s, (side, grip, way), force, braked = course
@@ -208,7 +208,7 @@ def after_event(body: Body, bounds: Bounds, course: Course, event: Event) -> Cou
     return Course(at_um, velocity, lag_um, motor_um_s, Hold(side, grip, way), force, braked)
 
 
-@compiled("(Body, Bounds, Course, Event)", Body, Bounds, Course, Event)
+@loop_part("(Body, Bounds, Course, Event)", Body, Bounds, Course, Event)
 def _stood(body: Body, bounds: Bounds, course: Course, event: Event) -> Course:
     """A course whose slide has come to a stand, by itself or at a stop: it stays, or is pushed back."""
     at_um, _, lag_um, motor_um_s, (side, grip, _), force, braked = course

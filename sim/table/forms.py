@@ -10,7 +10,7 @@ Both are exact: J. P. Den Hartog, "Mechanical Vibrations", McGraw-Hill, 4th edit
 import math
 from typing import NamedTuple
 
-from controller.compiled.loops import compiled
+from controller.compiled.loops import loop_part
 from sim.table.drive import Drive
 
 _ALL_BUT_CRITICAL = 1e-10
@@ -73,7 +73,7 @@ class Wave(NamedTuple):
     odd: float
 
 
-@compiled("(Oscillation, f8)", Oscillation, Pair)
+@loop_part("(Oscillation, f8)", Oscillation, Pair)
 def pair_at(swings: Oscillation, after_s: float) -> Pair:
     """Both parts of its waves after a time."""
     if swings.creeps:
@@ -83,26 +83,26 @@ def pair_at(swings: Oscillation, after_s: float) -> Pair:
     return Pair(decayed * math.cos(phase), decayed * math.sin(phase))
 
 
-@compiled("f8(Wave, Pair)", Wave, Pair)
+@loop_part("f8(Wave, Pair)", Wave, Pair)
 def value_of(wave: Wave, pair: Pair) -> float:
     """Value of a wave."""
     return wave.level + wave.even * pair.even + wave.odd * pair.odd
 
 
-@compiled("(Oscillation, f8, f8, f8)", Oscillation, Wave)
+@loop_part("(Oscillation, f8, f8, f8)", Oscillation, Wave)
 def wave_of(swings: Oscillation, level: float, value: float, slope: float) -> Wave:
     """A wave about a level, by how far it is from there at the beginning, and by its slope then, per s."""
     return Wave(level, value, (slope + swings.decay * value) / swings.rate)
 
 
-@compiled("(Oscillation, Wave)", Oscillation, Wave)
+@loop_part("(Oscillation, Wave)", Oscillation, Wave)
 def slope_of(swings: Oscillation, wave: Wave) -> Wave:
     """The slope of a wave, which is a wave about 0."""
     turned = swings.rate * wave.even if swings.creeps else -swings.rate * wave.even
     return Wave(0.0, swings.rate * wave.odd - swings.decay * wave.even, turned - swings.decay * wave.odd)
 
 
-@compiled("f8(Oscillation, Wave)", Oscillation, Wave)
+@loop_part("f8(Oscillation, Wave)", Oscillation, Wave)
 def first_zero(swings: Oscillation, wave: Wave) -> float:
     """First time after 0 at which a wave about 0 is 0; infinite where there is none. Others follow each half period."""
     if swings.creeps:
@@ -115,7 +115,7 @@ def first_zero(swings: Oscillation, wave: Wave) -> float:
     return (phase if phase > 0.0 else phase + math.pi) / swings.rate
 
 
-@compiled("f8(Oscillation, Wave, f8, f8)", Oscillation, Wave)
+@loop_part("f8(Oscillation, Wave, f8, f8)", Oscillation, Wave)
 def _rise_in(swings: Oscillation, wave: Wave, low_s: float, high_s: float) -> float:
     """Where a wave passes 0 in a time in which it rises from below to above it: Newton's steps within a bracket."""
     slope = slope_of(swings, wave)
@@ -148,13 +148,13 @@ class Span(NamedTuple):
     is_short: bool
 
 
-@compiled("(Oscillation, f8)", Oscillation, Span)
+@loop_part("(Oscillation, f8)", Oscillation, Span)
 def span_of(swings: Oscillation, until_s: float) -> Span:
     """The time up to another."""
     return Span(until_s, pair_at(swings, until_s), swings.creeps or swings.rate * until_s < math.pi)
 
 
-@compiled("f8(Oscillation, Wave, Span, f8)", Oscillation, Wave, Span)
+@loop_part("f8(Oscillation, Wave, Span, f8)", Oscillation, Wave, Span)
 def wave_rises(swings: Oscillation, wave: Wave, span: Span, least: float) -> float:
     """First time within a span at which a wave that begins below 0 rises above it, and beyond `least` at last.
 
@@ -189,7 +189,7 @@ class Coasting(NamedTuple):
     thrice: float
 
 
-@compiled("(f8, f8)", Coasting)
+@loop_part("(f8, f8)", Coasting)
 def coasting(viscous: float, after_s: float) -> Coasting:
     """How far a velocity that decays at a rate, 1/s, leads in a time."""
     x = viscous * after_s
@@ -203,7 +203,7 @@ def coasting(viscous: float, after_s: float) -> Coasting:
     return Coasting(once, twice, (after_s**2 / 2.0 - twice) / viscous)
 
 
-@compiled("f8(f8, f8)")
+@loop_part("f8(f8, f8)")
 def coasted_s(viscous: float, once: float) -> float:
     """The time after which `coasting` has come to `once`; infinite where it never does."""
     share = viscous * once
@@ -220,7 +220,7 @@ class Coast(NamedTuple):
     bend: float
 
 
-@compiled("f8(f8, Coast, f8, f8)", Coast)
+@loop_part("f8(f8, Coast, f8, f8)", Coast)
 def coast_rises(viscous: float, coast: Coast, until_s: float, least: float) -> float:
     """First time at which a quantity that begins below 0 rises above it, and beyond `least` at last.
 

@@ -11,7 +11,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from controller.compiled.loops import compiled
+from controller.compiled.loops import compiled, loop_part
 from parser.geometry.curves import Floats
 from sim.base.units import newtons
 from sim.table.drive import Drive
@@ -101,7 +101,7 @@ class PeakPlace(NamedTuple):
     at_um: float
 
 
-@compiled("b1(Record, i8, f8, f8)", Record)
+@loop_part("b1(Record, i8, f8, f8)", Record)
 def is_peak(record: Record, number: int, value: float, limit: float) -> bool:
     """Whether a value is the largest share of its limit so far; the largest of all where there is none.
 

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from controller.compiled.loops import compiled
+from controller.compiled.loops import compiled, loop_part
 from controller.stepping.pulses import Pulses
 from parser.geometry.curves import Floats
 from sim.base.units import engine_force
@@ -145,7 +145,7 @@ class Rating(NamedTuple):
     last: int
 
 
-@compiled("f8(Strength, f8)", Strength)
+@loop_part("f8(Strength, f8)", Strength)
 def limit_at(strength: Strength, rate_hz: float) -> float:
     """Largest force over the mass at a step rate: linear between the points of the curve, constant past the last."""
     rates, limits = strength.rate_hz, strength.limit

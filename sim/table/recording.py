@@ -6,7 +6,7 @@ Each is worked out from the closed form of the course: extremes lie at its ends,
 import math
 from typing import NamedTuple
 
-from controller.compiled.loops import compiled
+from controller.compiled.loops import compiled, loop_part
 from sim.table.axis import Axis, AxisDemand, Leg, Noted, State, bounds_of
 from sim.table.course import (
     Body,
@@ -44,13 +44,13 @@ class Ranges(NamedTuple):
     force: Range
 
 
-@compiled("(f8, f8, f8)", Range)
+@loop_part("(f8, f8, f8)", Range)
 def _between(first: float, last: float, after_s: float) -> Range:
     """Range of what goes one way from its first to its last value."""
     return Range(first, last, 0.0, after_s) if first < last else Range(last, first, after_s, 0.0)
 
 
-@compiled("(Range, f8, f8)", Range)
+@loop_part("(Range, f8, f8)", Range)
 def _with_value(range_: Range, value: float, after_s: float) -> Range:
     """A range that a value is taken into."""
     if value < range_.low:
@@ -66,7 +66,7 @@ class Ends(NamedTuple):
     after_s: float
 
 
-@compiled("(Oscillation, Form, Ends)", Oscillation, Form, Ends, Range)
+@loop_part("(Oscillation, Form, Ends)", Oscillation, Form, Ends, Range)
 def _range_of(swings: Oscillation, form: Form, ends: Ends) -> Range:
     """Range of a wave: it decays, so that no extreme behind the first two is farther out."""
     after_s = ends.after_s
@@ -93,7 +93,7 @@ class Part(NamedTuple):
     error_um: float
 
 
-@compiled("(Body, Part)", Body, Part, Ranges)
+@loop_part("(Body, Part)", Body, Part, Ranges)
 def _ranges(body: Body, part: Part) -> Ranges:
     """Ranges in a part of a course."""
     drive, swings, course, last, after_s = body.drive, body.swings, part.course, part.last, part.after_s
@@ -116,7 +116,7 @@ def _ranges(body: Body, part: Part) -> Ranges:
     return Ranges(velocity, _between(first, then, after_s), lag, _between(course.force, last.force, after_s))
 
 
-@compiled("f8(Body, Part)", Body, Part)
+@loop_part("f8(Body, Part)", Body, Part)
 def _lag_area(body: Body, part: Part) -> float:
     """Integral of the lag over a part of a course, µm s."""
     course, last, after_s = part.course, part.last, part.after_s
@@ -131,7 +131,7 @@ def _lag_area(body: Body, part: Part) -> float:
     return evenly - course.velocity * after_s**2 / 2.0 - bend
 
 
-@compiled("(Body, Part, Bins, i8)", Body, Part, Bins, Ranges)
+@loop_part("(Body, Part, Bins, i8)", Body, Part, Bins, Ranges)
 def recorded_part(body: Body, part: Part, bins: Bins, number: int) -> Ranges:
     """Take a part of a course into a bin; its ranges."""
     course, last, _, after_s, error_um = part
@@ -166,7 +166,7 @@ class Peaked(NamedTuple):
     lag_um: Farthest
 
 
-@compiled("(Range,)", Range, Farthest)
+@loop_part("(Range,)", Range, Farthest)
 def _farthest(range_: Range) -> Farthest:
     """How far a range comes from 0."""
     if -range_.low > range_.high:
@@ -174,13 +174,13 @@ def _farthest(range_: Range) -> Farthest:
     return Farthest(range_.high, range_.high_s)
 
 
-@compiled("(Ranges,)", Ranges, Peaked)
+@loop_part("(Ranges,)", Ranges, Peaked)
 def peaked_of(ranges: Ranges) -> Peaked:
     """How far force, speed and lag come from 0 in a course, by their ranges."""
     return Peaked(_farthest(ranges.force), _farthest(ranges.velocity), _farthest(ranges.lag_um))
 
 
-@compiled("(Axis, AxisDemand, State)", Axis, AxisDemand, State, Limits)
+@loop_part("(Axis, AxisDemand, State)", Axis, AxisDemand, State, Limits)
 def limits_of(axis: Axis, demand: AxisDemand, state: State) -> Limits:
     """Limits of an axis at its step rate."""
     bounds = bounds_of(axis, demand, state.rating)
@@ -195,7 +195,7 @@ class Candidate(NamedTuple):
     limit: float
 
 
-@compiled("void(Body, Part, Candidate, Record)", Body, Part, Candidate, Record)
+@loop_part("void(Body, Part, Candidate, Record)", Body, Part, Candidate, Record)
 def _take_candidate(body: Body, part: Part, candidate: Candidate, record: Record) -> None:
     """Take what may be a peak of a part of a course; where it comes is worked out for a new one alone."""
     number, (value, after_s), limit = candidate
@@ -204,7 +204,7 @@ def _take_candidate(body: Body, part: Part, candidate: Candidate, record: Record
         take_peak(record, number, value, limit, place)
 
 
-@compiled("void(Body, Part, Peaked, Limits, Record)", Body, Part, Peaked, Limits, Record)
+@loop_part("void(Body, Part, Peaked, Limits, Record)", Body, Part, Peaked, Limits, Record)
 def _take_peaks(body: Body, part: Part, peaked: Peaked, limits: Limits, record: Record) -> None:
     """Take the peaks of a part of a course."""
     _take_candidate(body, part, Candidate(0, peaked.force, limits.force), record)
@@ -212,7 +212,7 @@ def _take_peaks(body: Body, part: Part, peaked: Peaked, limits: Limits, record: 
     _take_candidate(body, part, Candidate(2, peaked.lag_um, limits.lag_um), record)
 
 
-@compiled("i8(Bins, i8, f8)", Bins)
+@loop_part("i8(Bins, i8, f8)", Bins)
 def bin_at(bins: Bins, number: int, t_s: float) -> int:
     """The bin of a time, none before a number."""
     while number < len(bins.border_s) - 2 and bins.border_s[number + 1] <= t_s:
@@ -220,7 +220,7 @@ def bin_at(bins: Bins, number: int, t_s: float) -> int:
     return number
 
 
-@compiled("i8(Body, Part, Record, i8)", Body, Part, Record)
+@loop_part("i8(Body, Part, Record, i8)", Body, Part, Record)
 def _sampled(body: Body, part: Part, record: Record, number: int) -> int:
     """Note the samples of a course, from one on; the first one after its end."""
     while record.sample_s[number] <= part.t_s + part.after_s:
@@ -229,7 +229,7 @@ def _sampled(body: Body, part: Part, record: Record, number: int) -> int:
     return number
 
 
-@compiled("void(Bins, i8, Course, f8, f8)", Bins, Course)
+@loop_part("void(Bins, i8, Course, f8, f8)", Bins, Course)
 def _record_rest(bins: Bins, number: int, course: Course, after_s: float, error_um: float) -> None:
     """Take a rest into a bin. It has no peak: what stands was as far off as the course before it came to its end."""
     at, lag_um, force = number * VALUES, course.lag_um, course.force
@@ -240,7 +240,7 @@ def _record_rest(bins: Bins, number: int, course: Course, after_s: float, error_
     widened(bins, at + 4, force, force, force * after_s)
 
 
-@compiled("i8(Body, Part, Limits, Record, i8)", Body, Part, Limits, Record)
+@loop_part("i8(Body, Part, Limits, Record, i8)", Body, Part, Limits, Record)
 def _binned(body: Body, whole: Part, limits: Limits, record: Record, number: int) -> int:
     """Take a course into bins and peaks; the bin where it ended."""
     border_s, (course, _, t_s, _, error_um) = record.bins.border_s, whole

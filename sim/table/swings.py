@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from controller.compiled.loops import compiled
+from controller.compiled.loops import compiled, loop_part
 from sim.table.axis import Axis, AxisDemand, Leg, Noted, State, next_leg, turned_to
 from sim.table.course import LIMITED, Course, Hold, moved
 from sim.table.history import PEAKS, VALUES, PeakPlace, Record, take_peak, widened
@@ -76,7 +76,7 @@ def waited(state: State, until_s: float) -> Leg:
     return Leg(state.course, state.course, until_s - state.t_s, rested)
 
 
-@compiled("(AxisTask, State)", AxisTask, State, Swing)
+@loop_part("(AxisTask, State)", AxisTask, State, Swing)
 def _next_swing(task: AxisTask, state: State) -> Swing:
     """The swing that begins with the step of a pulse that is due.
 
@@ -90,14 +90,14 @@ def _next_swing(task: AxisTask, state: State) -> Swing:
     return Swing(lag_um, step_um, free_until_s, bin_at(task.record.bins, state.noted.bin, state.t_s), slot)
 
 
-@compiled("b1(Swings, Swing)", Swings, Swing)
+@loop_part("b1(Swings, Swing)", Swings, Swing)
 def _is_stored(swings: Swings, swing: Swing) -> bool:
     """Whether a swing is stored that begins like this."""
     slot = swing.slot
     return bool(abs(swings.lag_um[slot] - swing.lag_um) < ALIKE_UM and swings.step_um[slot] == swing.step_um)
 
 
-@compiled("b1(AxisTask, State, Swing)", AxisTask, State, Swing)
+@loop_part("b1(AxisTask, State, Swing)", AxisTask, State, Swing)
 def _repeats(task: AxisTask, state: State, swing: Swing) -> bool:
     """Whether a stored swing ends before anything else is due, within the travel and what the motor can do now."""
     body, swings, slot = task.axis.body, task.swings, swing.slot
@@ -109,7 +109,7 @@ def _repeats(task: AxisTask, state: State, swing: Swing) -> bool:
     return bool(alone and within and strong)
 
 
-@compiled("i8(AxisTask, State, Swing)", AxisTask, State, Swing)
+@loop_part("i8(AxisTask, State, Swing)", AxisTask, State, Swing)
 def _sampled(task: AxisTask, first: State, swing: Swing) -> int:
     """Note the samples that come in a stored swing; the first one after that."""
     record, swings, number = task.record, task.swings, first.noted.sample
@@ -126,7 +126,7 @@ def _sampled(task: AxisTask, first: State, swing: Swing) -> int:
     return number
 
 
-@compiled("(Swings, i8)", Swings, Course)
+@loop_part("(Swings, i8)", Swings, Course)
 def _stored_course(swings: Swings, number: int) -> Course:
     """A stored course; its places are ways from where the swing began."""
     at, first = number * FIELDS, number * 3
@@ -141,7 +141,7 @@ def _stored_course(swings: Swings, number: int) -> Course:
     return Course(way_um, velocity, lag_um, motor_um_s, hold, force, False)
 
 
-@compiled("void(Swings, i8, Course, f8)", Swings, Course)
+@loop_part("void(Swings, i8, Course, f8)", Swings, Course)
 def _store_course(swings: Swings, number: int, course: Course, from_um: float) -> None:
     """Store a course of a swing that began at a place."""
     at, hold = number * FIELDS, number * 3
@@ -152,7 +152,7 @@ def _store_course(swings: Swings, number: int, course: Course, from_um: float) -
     swings.holds[hold + 2] = course.hold.way
 
 
-@compiled("(AxisTask, State, Swing)", AxisTask, State, Swing)
+@loop_part("(AxisTask, State, Swing)", AxisTask, State, Swing)
 def _repeated(task: AxisTask, first: State, swing: Swing) -> State:
     """An axis after a stored swing."""
     noted, swings, slot = first.noted, task.swings, swing.slot
@@ -165,7 +165,7 @@ def _repeated(task: AxisTask, first: State, swing: Swing) -> State:
     return State(t_s, course, first.lost_um, True, turn, first.rating, noted, first.tripped_s)
 
 
-@compiled("void(Swings, Swing)", Swings, Swing)
+@loop_part("void(Swings, Swing)", Swings, Swing)
 def _clear(swings: Swings, swing: Swing) -> None:
     """Make room for a swing."""
     slot = swing.slot
@@ -177,7 +177,7 @@ def _clear(swings: Swings, swing: Swing) -> None:
         swings.peaks[at] = -1.0
 
 
-@compiled("void(AxisTask, State, State, Leg, Swing)", AxisTask, State, Leg, Swing)
+@loop_part("void(AxisTask, State, State, Leg, Swing)", AxisTask, State, Leg, Swing)
 def _store_leg(task: AxisTask, first: State, before: State, leg: Leg, swing: Swing) -> None:
     """Store what an axis does in a course of a swing that began in its first state."""
     body, swings, slot, course = task.axis.body, task.swings, swing.slot, leg.course
@@ -200,7 +200,7 @@ def _store_leg(task: AxisTask, first: State, before: State, leg: Leg, swing: Swi
     swings.lasts_s[slot] = leg.state.t_s - first.t_s
 
 
-@compiled("b1(AxisTask, State, Leg, Swing)", AxisTask, State, Leg, Swing)
+@loop_part("b1(AxisTask, State, Leg, Swing)", AxisTask, State, Leg, Swing)
 def _disturbed(task: AxisTask, first: State, leg: Leg, swing: Swing) -> bool:
     """Whether something else comes before a course ends: another step, a slip, a limit, a stop of the travel."""
     now, body = leg.state, task.axis.body
@@ -210,14 +210,14 @@ def _disturbed(task: AxisTask, first: State, leg: Leg, swing: Swing) -> bool:
     return bool(limited or lost or stopped or now.t_s >= swing.free_until_s)
 
 
-@compiled("(AxisTask, State)", AxisTask, State)
+@loop_part("(AxisTask, State)", AxisTask, State)
 def _awoken(task: AxisTask, state: State) -> State:
     """An axis that has rested, as the step that is due begins: its motor may slip at once."""
     begins = Leg(state.course, state.course, 0.0, turned_to(task.axis, task.demand, state))
     return recorded(task.axis, task.demand, state, begins, task.record)
 
 
-@compiled("(AxisTask, State, Swing)", AxisTask, State, Swing)
+@loop_part("(AxisTask, State, Swing)", AxisTask, State, Swing)
 def _followed_swing(task: AxisTask, first: State, swing: Swing) -> State:
     """An axis after the courses of a swing, which is stored once it rests; before the course that is disturbed."""
     _clear(task.swings, swing)
@@ -233,7 +233,7 @@ def _followed_swing(task: AxisTask, first: State, swing: Swing) -> State:
     return state
 
 
-@compiled("void(AxisTask, State, State, Swing)", AxisTask, State, Swing)
+@loop_part("void(AxisTask, State, State, Swing)", AxisTask, State, Swing)
 def _record_swing(task: AxisTask, first: State, now: State, swing: Swing) -> None:
     """Record a stored swing."""
     bins, swings, lost_um = task.record.bins, task.swings, first.lost_um
@@ -249,7 +249,7 @@ def _record_swing(task: AxisTask, first: State, now: State, swing: Swing) -> Non
         take_peak(task.record, number, swings.peaks[at], limit, place)
 
 
-@compiled("(AxisTask, State)", AxisTask, State)
+@loop_part("(AxisTask, State)", AxisTask, State)
 def _swung(task: AxisTask, state: State) -> State:
     """An axis that has rested until a step is due, after the swing of that step, or after its beginning."""
     rating = rated(task.axis.strength, task.demand.train, state.rating, state.t_s)

@@ -2,6 +2,7 @@
 
 import json
 import os
+import platform
 import re
 import subprocess
 import sys
@@ -15,10 +16,11 @@ from typing import Any
 import pytest
 from depth import spread
 from licence_page import closure
-from places import ROOT
+from places import ROOT, SCENARIOS
 
 from drycut import __version__
 from parser.findings.codes import CODES
+from sim.cli.compile import compile_loops
 from sim.show.terminal.markdown import files
 
 LOCKS = tuple(f"requirements-{of}lock.txt" for of in ("build-", "core-", "all-", ""))
@@ -64,6 +66,28 @@ def test_wheel_holds_packages_data_and_licences(tmp_path: Path) -> None:
     assert {path.removeprefix("sim/") for path in names if path.startswith("sim/scenarios/")} == examples
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="the tag that is expected is that of Linux")
+def test_the_wheel_with_machine_code_runs_at_once_where_nothing_can_be_compiled(tmp_path: Path) -> None:
+    """Of code for a processor that every machine of its architecture has, so of one system alone."""
+    compile_loops()
+    environment = {**os.environ, "HATCH_BUILD_HOOKS_ENABLE": "1"}
+    command = [sys.executable, "-m", "hatchling", "build", "--target", "wheel", "--directory", str(tmp_path)]
+    subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, check=True, timeout=120)
+    (wheel,) = tmp_path.iterdir()
+    assert wheel.name.endswith(f"-py3-none-manylinux_2_17_{platform.machine()}.whl")
+    zipfile.ZipFile(wheel).extractall(tmp_path / "installed")  # noqa: S202 - it was made here
+    code = "import sys; sys.modules['numba'] = None\nfrom drycut.__main__ import main\nmain()"
+    empty = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path / "none"), "PYTHONPATH": str(tmp_path / "installed")}
+    scenario = [str(SCENARIOS / "keyhole"), "--kerf", "-o", str(tmp_path / "out")]
+    done = subprocess.run(
+        [sys.executable, "-c", code, "run", *scenario],
+        cwd=tmp_path, env=empty, capture_output=True, text=True, check=False, timeout=120,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    assert "compiling" not in done.stderr
+    assert not (tmp_path / "none").exists()
+
+
 def test_source_package_holds_what_tests_and_documents_need(tmp_path: Path) -> None:
     code = f"from hatchling.build import build_sdist; print(build_sdist({str(tmp_path)!r}))"
     done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
@@ -73,7 +97,7 @@ def test_source_package_holds_what_tests_and_documents_need(tmp_path: Path) -> N
     made = {"__pycache__", "failures"}
     wanted = {path.relative_to(ROOT).as_posix() for path in here if path.is_file() and not made & set(path.parts)}
     scripts = {"package.json", "package-lock.json", ".npmrc", "tsconfig.json", "eslint.config.js"}
-    others = {"action.yml", ".pre-commit-hooks.yaml", ".github/action-check.sh"}
+    others = {"action.yml", ".pre-commit-hooks.yaml", ".github/action-check.sh", ".ci/build_loops.py"}
     assert (wanted | scripts | others) - names == set()
 
 

@@ -35,7 +35,7 @@ SHIPPED = {
 OWN = {
     *("sim/base/files/swap.py", "sim/base/files/stages.py", "sim/base/files/steps.py", "sim/run/recording.py"),
     *("sim/jobs/batch.py", "sim/jobs/batch.py", "sim/jobs/trace_file.py"),
-    "controller/compiled/machine_code.py",  # machine code, sealed
+    "controller/compiled/entries.py",  # machine code, sealed
     "sim/show/terminal/streams.py",  # reopens closed streams on nothing
     *("sim/cli/lsp.py", "sim/serve/page/child.py"),  # hand a protocol, or a process of ours, its streams
     *(

@@ -16,7 +16,7 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 import shapely
 
-from controller.compiled.loops import compiled
+from controller.compiled.loops import compiled, loop_part
 from parser.geometry.curves import Bools, Floats, Ints
 from sim.cut.kerf.stars import SIMPLER_UM, thin, thinning_room
 from sim.cut.kerf.ways import spacing_um
@@ -113,7 +113,7 @@ def _room(places: int, quarter: int) -> _Room:
     )
 
 
-@compiled("Tuple((f8, f8))(f8[:,::1], i8, i8, f8, f8)")
+@loop_part("Tuple((f8, f8))(f8[:,::1], i8, i8, f8, f8)")
 def _section(way: Floats, low: int, high: int, offset: float, at: float) -> tuple[float, float]:
     """Lowest and highest border at a place along the way, of the discs about some places (u, v)."""
     lowest, highest = np.inf, -np.inf
@@ -126,7 +126,7 @@ def _section(way: Floats, low: int, high: int, offset: float, at: float) -> tupl
     return lowest, highest
 
 
-@compiled("void(f8[:,::1], f8[::1], f8, f8, f8[:,::1])")
+@loop_part("void(f8[:,::1], f8[::1], f8, f8, f8[:,::1])")
 def _sections(way: Floats, stations: Floats, offset: float, window: float, border: Floats) -> None:
     """Fill in lowest and highest border (k, 2) at stations in order, of discs about places (u, v).
 
@@ -154,7 +154,7 @@ _COLUMNS: Final = "f8[:,::1], f8[::1], f8[::1], f8[::1], f8[::1], f8[:,::1], f8[
 _ROOM: Final = f"Tuple(({_COLUMNS}, b1[::1], i8[:,::1]))"
 
 
-@compiled("i8(f8[:,::1], f8[::1], UniTuple(f8, 2), Tuple((f8[::1], f8[::1])), Tuple((f8[:,::1], f8[:,::1])), f8[::1])")
+@loop_part("i8(f8[:,::1], f8[::1], UniTuple(f8, 2), Tuple((f8[::1], f8[::1])), Tuple((f8[:,::1], f8[:,::1])), f8[::1])")
 def _with_notches(  # noqa: PLR0913, PLR0917 - a compiled loop takes the columns that it fills one by one
     way: Floats,
     sorted_: Floats,
@@ -193,7 +193,7 @@ def _with_notches(  # noqa: PLR0913, PLR0917 - a compiled loop takes the columns
     return made
 
 
-@compiled("UniTuple(f8, 2)(f8[:,::1], f8[:,::1])")
+@loop_part("UniTuple(f8, 2)(f8[:,::1], f8[:,::1])")
 def _lay(place: Floats, way: Floats) -> tuple[float, float]:
     """Fill in places (m, 2) along and across the line from the first to the last; gives its direction."""
     m = place.shape[0]
@@ -207,7 +207,7 @@ def _lay(place: Floats, way: Floats) -> tuple[float, float]:
     return toward_x, toward_y
 
 
-@compiled("void(f8[:,::1], f8[::1])")
+@loop_part("void(f8[:,::1], f8[::1])")
 def _sort_along(way: Floats, sorted_: Floats) -> None:
     """Fill in where places (m, 2) lie along the way, in order: they are so already but for steps back."""
     for p in range(way.shape[0]):
@@ -218,7 +218,7 @@ def _sort_along(way: Floats, sorted_: Floats) -> None:
         sorted_[at] = way[p, 0]
 
 
-@compiled("f8(f8[:,::1], f8, f8)")
+@loop_part("f8(f8[:,::1], f8, f8)")
 def _window(way: Floats, offset: float, spacing: float) -> float:
     """How far along the way a disc may be the highest or lowest: farther off, the nearest one reaches farther."""
     lowest, highest = np.inf, -np.inf

@@ -11,7 +11,7 @@ from typing import Final
 import numpy as np
 import shapely
 
-from controller.compiled.loops import compiled
+from controller.compiled.loops import compiled, loop_part
 from parser.geometry.curves import Bools, Floats, Ints
 from sim.cut.regions import Regions
 
@@ -58,7 +58,7 @@ def _borders(place: Floats, bounds: Ints, middle: Floats, toward: Floats, offset
     return corners[: ends[-1]], ends
 
 
-@compiled("void(f8[:,::1], f8[::1], f8[:,::1], f8, f8[:,::1])")
+@loop_part("void(f8[:,::1], f8[::1], f8[:,::1], f8, f8[:,::1])")
 def _border(place: Floats, middle: Floats, toward: Floats, offset: float, border: Floats) -> None:
     """Fill in the border (k, 2) of the star about its middle (2,) along the rays, `toward` (2, k)."""
     x, y = middle[0], middle[1]
@@ -76,7 +76,7 @@ def _border(place: Floats, middle: Floats, toward: Floats, offset: float, border
         border[k, 1] = y + reach * toward[1, k]
 
 
-@compiled("Tuple((i8, f8))(f8[:,::1], i8, i8)")
+@loop_part("Tuple((i8, f8))(f8[:,::1], i8, i8)")
 def _farthest(border: Floats, low: int, high: int) -> tuple[int, float]:
     """The corner between two others that lies farthest from the line between them, and the square of how far."""
     past = border.shape[0]
@@ -99,7 +99,7 @@ def thinning_room(corners: int) -> tuple[Bools, Ints]:
     return np.empty(corners, dtype=np.bool_), np.empty((corners + 1, 2), dtype=np.int64)
 
 
-@compiled("void(f8[:,::1], f8, b1[::1], i8[:,::1])")
+@loop_part("void(f8[:,::1], f8, b1[::1], i8[:,::1])")
 def thin(border: Floats, within: float, is_kept: Bools, waiting: Ints) -> None:
     """Mark the corners (k, 2) of a ring that are kept, so that no other lies farther off than `within`."""
     past = border.shape[0]

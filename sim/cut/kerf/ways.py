@@ -17,7 +17,7 @@ from typing import Final, NamedTuple
 import numpy as np
 import shapely
 
-from controller.compiled.loops import compiled
+from controller.compiled.loops import compiled, loop_part
 from parser.geometry.curves import Floats, Ints, total_before
 from parser.shape.contours import Contour
 from sim.table.trace import Trace
@@ -53,7 +53,7 @@ def _cells(at: Floats) -> Ints:
     return cells
 
 
-@compiled("void(i8[::1], i8, i8[:,::1])")
+@loop_part("void(i8[::1], i8, i8[:,::1])")
 def _about(wire_cell: Ints, cell: int, ranges: Ints) -> None:
     """Fill in which entries (3, 2), first and one past the last, stand in a cell and in those around it, by columns."""
     for at in range(3):
@@ -62,7 +62,7 @@ def _about(wire_cell: Ints, cell: int, ranges: Ints) -> None:
         ranges[at, 1] = np.searchsorted(wire_cell, middle + 1, side="right")
 
 
-@compiled("f8(f8[:,::1], i8[:,::1], f8, f8)")
+@loop_part("f8(f8[:,::1], i8[:,::1], f8, f8)")
 def _nearest_squared(wire_um: Floats, ranges: Ints, x: float, y: float) -> float:
     """Square of the distance of a place from the nearest of some entries."""
     nearest = math.inf

@@ -21,7 +21,7 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.compiled.loops import compiled
+from controller.compiled.loops import compiled, loop_part
 from parser.geometry.along import places
 from parser.geometry.curves import Floats, Ints, extents, is_inside
 from sim.make.cam.model import CannotCutError, Figure, Refusal, Thread
@@ -79,7 +79,7 @@ def shortened(place_um: Floats, near: Ints, order: Ints, bound: int) -> Ints:
     return shorter
 
 
-@compiled("f8(Walk, i8, i8)", Walk)
+@loop_part("f8(Walk, i8, i8)", Walk)
 def _apart(walk: Walk, this: int, other: int) -> float:
     """Distance µm of two places; none from the head, and a bond between that and the place that is bound to it."""
     head = len(walk.x)
@@ -88,7 +88,7 @@ def _apart(walk: Walk, this: int, other: int) -> float:
     return float(np.hypot(walk.x[this] - walk.x[other], walk.y[this] - walk.y[other]))
 
 
-@compiled("void(Walk, i8, i8)", Walk)
+@loop_part("void(Walk, i8, i8)", Walk)
 def _run_back(walk: Walk, low: int, high: int) -> None:
     """Run the places from one position to another backwards."""
     while low < high:
@@ -98,7 +98,7 @@ def _run_back(walk: Walk, low: int, high: int) -> None:
         low, high = low + 1, high - 1
 
 
-@compiled("b1(Walk, i8, i8, i8)", Walk)
+@loop_part("b1(Walk, i8, i8, i8)", Walk)
 def _turned(walk: Walk, near: int, number: int, step: int) -> bool:
     """Run a part of the way backwards, if that is shorter, so that `one` comes to stand beside one of those near it."""
     past = len(walk.way)
@@ -119,7 +119,7 @@ def _turned(walk: Walk, near: int, number: int, step: int) -> bool:
     return False
 
 
-@compiled("void(Walk, i8, i8, i8, b1)", Walk)
+@loop_part("void(Walk, i8, i8, i8, b1)", Walk)
 def _put(walk: Walk, low: int, high: int, behind: int, is_back: bool) -> None:
     """Put the places from one position to another behind that at a third one, backwards or not."""
     if behind > high:
@@ -135,7 +135,7 @@ def _put(walk: Walk, low: int, high: int, behind: int, is_back: bool) -> None:
         _run_back(walk, first, last)
 
 
-@compiled("b1(Walk, i8, i8, i8)", Walk)
+@loop_part("b1(Walk, i8, i8, i8)", Walk)
 def _moved(walk: Walk, near: int, each_number: int, number: int) -> bool:
     """Move places, if that is shorter, so that `one` comes to stand beside one of those near it.
 

@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from controller.compiled.loops import compiled
+from controller.compiled.loops import compiled, loop_part
 from parser.geometry.along import places
 from parser.geometry.curves import Curves, Floats, Ints
 from sim.measure.compare.nearest import Index, nearest
@@ -24,7 +24,7 @@ from sim.measure.curve_rows import IS_ARC, LENGTH, RADIUS, angle_at, curve_rows,
 _FULL_TURN_RAD = 2.0 * math.pi
 
 
-@compiled("f8(f8, UniTuple(f8, 2), f8, UniTuple(f8, 2))")
+@loop_part("f8(f8, UniTuple(f8, 2), f8, UniTuple(f8, 2))")
 def _bend(own_radius: float, own: tuple[float, float], radius: float, other: tuple[float, float]) -> float:
     """Largest |p″ − q″| of arcs that run from angle to angle evenly, each R φ² toward its centre; R is 0 of a line."""
     p, q = own_radius * (own[1] - own[0]) ** 2, radius * (other[1] - other[0]) ** 2
@@ -33,7 +33,7 @@ def _bend(own_radius: float, own: tuple[float, float], radius: float, other: tup
     return abs(p - q) + min(p, q) * min(max(abs(apart), abs(apart + turned)), 2.0)
 
 
-@compiled("f8(f8[::1], f8, f8, f8[::1])")
+@loop_part("f8(f8[::1], f8, f8, f8[::1])")
 def _bulge(own: Floats, begin: float, end: float, other: Floats) -> float:
     """How much farther the stretch of a curve between two shares may lie from another curve than its ends do."""
     own_angle, angle = (0.0, 0.0), (0.0, 0.0)
@@ -46,7 +46,7 @@ def _bulge(own: Floats, begin: float, end: float, other: Floats) -> float:
     return _bend(own[RADIUS], own_angle, other[RADIUS], angle) / 8.0
 
 
-@compiled("f8(f8[::1], f8, f8[::1])")
+@loop_part("f8(f8[::1], f8, f8[::1])")
 def _distance_at(own: Floats, share: float, other: Floats) -> float:
     """Distance of the place at a share of a curve from another curve."""
     x, y = place_at(own, share)

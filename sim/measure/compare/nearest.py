@@ -15,7 +15,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from controller.compiled.loops import compiled
+from controller.compiled.loops import compiled, loop_part
 from parser.findings.errors import DrawingError
 from parser.geometry.along import places
 from parser.geometry.curves import Curves, Floats, Ints
@@ -102,7 +102,7 @@ _MOST_WAITING = 128  # nodes, two of each level at most: there are no more level
 _SLACK, _SLACK_UM = 1e-12, 1e-9  # the last bits of distances from boxes and circles are granted
 
 
-@compiled("f8(f8[::1], f8, f8)")
+@loop_part("f8(f8[::1], f8, f8)")
 def from_box_squared(box: Floats, x: float, y: float) -> float:
     """Square of the distance of a place from a box, 0 within it."""
     off_x = max(box[0] - x, 0.0, x - box[2])
@@ -110,7 +110,7 @@ def from_box_squared(box: Floats, x: float, y: float) -> float:
     return float(off_x * off_x + off_y * off_y)
 
 
-@compiled("Tuple((f8, i8, i8))(i8[::1], f8[:,::1], UniTuple(f8, 2), f8, i8)")
+@loop_part("Tuple((f8, i8, i8))(i8[::1], f8[:,::1], UniTuple(f8, 2), f8, i8)")
 def _nearer_of(
     rows: Ints, shape: Floats, place_um: tuple[float, float], best: float, best_row: int
 ) -> tuple[float, int, int]:

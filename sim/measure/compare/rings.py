@@ -20,7 +20,7 @@ import numpy as np
 import shapely
 from shapely.geometry.polygon import orient
 
-from controller.compiled.loops import compiled
+from controller.compiled.loops import compiled, loop_part
 from parser.drawing.model import running
 from parser.findings.errors import SettingsError
 from parser.geometry.along import outline, places
@@ -245,7 +245,7 @@ def _parted(curves: Curves, place_um: Floats, *, alone: bool) -> tuple[Curves, C
 _FULL_TURN_RAD = 2.0 * math.pi
 
 
-@compiled("i8(f8[:,::1], i8, f8)")
+@loop_part("i8(f8[:,::1], i8, f8)")
 def _farthest(corner_um: Floats, from_: int, within_um: float) -> int:
     """The last corner that a side from the corner `from_` may run to; corners go away from that one all the way."""
     x, y, reached = corner_um[from_, 0], corner_um[from_, 1], from_ + 1

@@ -13,8 +13,10 @@ import numpy as np
 import pytest
 from places import ROOT, SCENARIOS
 
+from controller.compiled import entries
+from controller.compiled.entries import store, stored
 from controller.compiled.loops import compiled
-from controller.compiled.machine_code import MachineCode, Shape, store, stored
+from controller.compiled.machine_code import MachineCode, Shape
 from parser.geometry.curves import Floats
 from sim.cli.compile import LOOPS, compile_loops
 from sim.measure.curve_rows import away_from
@@ -79,10 +81,21 @@ def test_a_loop_is_compiled_again_when_a_loop_that_it_calls_has_changed(loops: P
 def test_every_module_with_loops_is_compiled_at_set_up() -> None:
     with_loops = set()
     for package in ("controller", "sim"):
-        for source in (ROOT / package).rglob("*.py"):
-            if any(map(_is_loop, ast.walk(ast.parse(source.read_text(encoding="utf-8"))))):
+        for source in _sources(package):
+            if any(_is_loop(node) for node in ast.walk(ast.parse(source.read_text(encoding="utf-8")))):
                 with_loops.add(".".join(source.relative_to(ROOT).with_suffix("").parts))
     assert sorted(LOOPS) == sorted(with_loops)
+
+
+def test_parts_of_loops_are_called_by_loops_alone() -> None:
+    """Set-up compiles none for itself: a run that called one would compile it at last."""
+    modules = {path: ast.parse(path.read_text("utf-8")) for name in ("controller", "sim") for path in _sources(name)}
+    parts = {
+        (path, node.name) for path, module in modules.items() for node in module.body if _is_loop(node, "loop_part")
+    }
+    assert len(parts) > 50
+    called = {call for path, module in modules.items() for call in _calls_outside_loops(path, module)}
+    assert parts & called == set()
 
 
 @pytest.mark.deeper
@@ -130,6 +143,22 @@ def test_damaged_machine_code_counts_as_none(
     (entry,) = (tmp_path / "cache").iterdir()
     entry.write_bytes(damaged(entry.read_bytes()))
     assert stored("a.loop", "0") is None
+
+
+def test_entries_of_the_package_come_first_and_a_damaged_one_counts_as_none(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    code = MachineCode("a", (), Shape("none"), b"of the package")
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "ready"))
+    store("a.loop", "0", code)
+    monkeypatch.setattr(entries, "READY", tmp_path / "ready")
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "own"))
+    assert stored("a.loop", "0") == code
+    own = code._replace(object_code=b"of the user")
+    store("a.loop", "0", own)
+    assert stored("a.loop", "0") == code
+    (tmp_path / "ready" / entries.file_of("a.loop", "0")).write_bytes(b"damaged")
+    assert stored("a.loop", "0") == own
 
 
 @pytest.mark.deeper
@@ -244,9 +273,27 @@ def test_tuples_arrays_and_truths_go_in_and_come_out(is_on: bool) -> None:
     assert [type(each) for each in (*found, *found.inner)] == [Inner, int, bool, bool, float]
 
 
-def _is_loop(node: ast.AST) -> bool:
-    """Whether it is a function under the decorator of compiled loops."""
+def _sources(package: str) -> list[Path]:
+    return sorted((ROOT / package).rglob("*.py"))
+
+
+def _is_loop(node: ast.AST, *decorators: str) -> bool:
+    """Whether it is a function under a decorator of compiled loops."""
     if not isinstance(node, ast.FunctionDef):
         return False
     calls = (one.func for one in node.decorator_list if isinstance(one, ast.Call))
-    return any(isinstance(called, ast.Name) and called.id == "compiled" for called in calls)
+    wanted = decorators or ("compiled", "loop_part")
+    return any(isinstance(called, ast.Name) and called.id in wanted for called in calls)
+
+
+def _calls_outside_loops(path: Path, module: ast.Module) -> set[tuple[Path, str]]:
+    """Functions, by the file that has them, that a module names outside of its loops."""
+    imported = {
+        each.asname or each.name: (ROOT.joinpath(*node.module.split(".")).with_suffix(".py"), each.name)
+        for node in ast.walk(module)
+        if isinstance(node, ast.ImportFrom) and node.module
+        for each in node.names
+    }
+    others = (node for node in module.body if not _is_loop(node))
+    names = {each.id for node in others for each in ast.walk(node) if isinstance(each, ast.Name)}
+    return {imported.get(name, (path, name)) for name in names}

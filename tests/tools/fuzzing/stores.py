@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from controller.compiled import machine_code
+from controller.compiled import entries
 from controller.compiled.machine_code import MachineCode, Shape
 from fuzzing.mutate import damaged
 from fuzzing.ran import answer_of, broken_by, ran
@@ -88,10 +88,10 @@ def judge_loop(data: Input, _: int, folder: Path) -> Judged:
     was = os.environ.get("NUMBA_CACHE_DIR")
     os.environ["NUMBA_CACHE_DIR"] = str(folder)
     try:
-        machine_code.store("loop", "digest", _LOOP)
+        entries.store("loop", "digest", _LOOP)
         (entry,) = folder.rglob("*.loop")
         entry.write_bytes(data)
-        found = machine_code.stored("loop", "digest")
+        found = entries.stored("loop", "digest")
     finally:
         os.environ.pop("NUMBA_CACHE_DIR")
         if was is not None:
