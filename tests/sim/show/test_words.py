@@ -87,7 +87,7 @@ def for_no_one(node: ast.AST) -> bool:
         return isinstance(node.value, ast.Constant)
     if isinstance(node, ast.Call):
         called = ast.unparse(node.func)
-        return called.endswith("Error") or called.startswith("re.") or called == "compiled"
+        return called.endswith("Error") or called.startswith("re.") or called in {"compiled", "loop_part"}
     return isinstance(node, ast.Raise | ast.Assert)
 
 
