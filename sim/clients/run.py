@@ -41,7 +41,7 @@ from sim.setup.machine.machine import Machine, Motor, TableModel
 from sim.setup.scenario import Scenario
 from sim.table.follow import Setup
 from sim.table.motion import Motion
-from sim.table.ticks import choose_ticks, rhythm
+from sim.table.ticks import Sampling, choose_ticks, rhythm
 from sim.table.trace import origin_um
 
 
@@ -99,7 +99,8 @@ def _motion(read: Read, scenario: Scenario) -> Motion:
     limits = row_limits(toolpath, machine.feeds(scenario.thickness_mm), controller.limits)
     drive = Drive(toolpath, limits, plan, origin_um(toolpath), "card")
     table = Setup(machine.table, scenario.start_um, origin_um(toolpath), (x, y), machine.engine)
-    ticks = choose_ticks(toolpath, plan, rhythm(machine.table), scenario.trace_spacing_um)
+    sampling = Sampling(scenario.trace_spacing_um, scenario.wire_lag_um)
+    ticks = choose_ticks(toolpath, plan, rhythm(machine.table), sampling)
     return Motion(drive, read.session.settings, table, ticks)
 
 

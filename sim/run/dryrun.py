@@ -41,6 +41,7 @@ from sim.setup.scenario import Scenario
 from sim.table.history import History
 from sim.table.losses import Loss, Peak
 from sim.table.motion import Motion, motion_of
+from sim.table.ticks import Sampling
 from sim.table.trace import Trace, origin_um
 
 Cause = Literal["trip", "travel"]
@@ -83,7 +84,8 @@ def trip_of(losses: Iterable[Loss]) -> Ending | None:
 def motion_to_end(ready: Prepared, scenario: Scenario) -> tuple[Motion, Ending | None]:
     """The motion of a program, and where it ends early because the path leaves the travel."""
     toolpath, machine, start_um = ready.program.toolpath, scenario.machine, scenario.start_um
-    motion = motion_of(toolpath, ready.feeds, machine, start_um, scenario.trace_spacing_um)
+    sampling = Sampling(scenario.trace_spacing_um, scenario.wire_lag_um)
+    motion = motion_of(toolpath, ready.feeds, machine, start_um, sampling)
     if scenario.past_stop:
         return motion, None
     ended = travel_end(ready, motion, scenario)

@@ -20,7 +20,7 @@ from sim.setup.machine.machine import Machine
 from sim.table.follow import Following, Setup
 from sim.table.history import History
 from sim.table.losses import Loss, Peak
-from sim.table.ticks import Ticks, choose_ticks, rhythm
+from sim.table.ticks import Sampling, Ticks, choose_ticks, rhythm
 from sim.table.trace import Trace, origin_um
 
 _TOGETHER = 1 << 14
@@ -65,16 +65,16 @@ def motion_of(
     feeds: Feeds,
     machine: Machine,
     start_um: tuple[float, float],
-    spacing_um: float,
+    sampling: Sampling,
 ) -> Motion:
-    """Motion of a toolpath on a machine, planned at these feeds; the trace has a sample every `spacing_um` of path."""
+    """Motion of a toolpath on a machine, planned at these feeds; the trace has samples as `sampling` has it."""
     controller = machine.controller
     limits = row_limits(toolpath, feeds, controller.limits)
     plan = plan_rows(limits, jerk_um_s3=controller.limits.jerk_um_s3)
     drive = Drive(toolpath, limits, plan, origin_um(toolpath), controller.interpolation)
     x, y = controller.limits.axis_speed_um_s
     table = Setup(machine.table, start_um, origin_um(toolpath), (x, y), machine.engine)
-    ticks = choose_ticks(toolpath, plan, rhythm(machine.table), spacing_um)
+    ticks = choose_ticks(toolpath, plan, rhythm(machine.table), sampling)
     return Motion(drive, controller.card_settings, table, ticks)
 
 

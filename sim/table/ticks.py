@@ -65,10 +65,32 @@ def rhythm(model: TableModel) -> Rhythm:
     return Rhythm((x, y), slow * min(x, y))
 
 
+class Sampling(NamedTuple):
+    """Where the trace has samples along the path, besides the borders of blocks.
+
+    Attributes
+    ----------
+    spacing_um
+        How far they are apart at most.
+    lag_um
+        How far the wire lags behind its guides: behind a corner it comes round within a few lags, and samples are
+        closer there.
+    """
+
+    spacing_um: float
+    lag_um: float = 0.0
+
+
 SPACED = 500_000
 """Most samples along the path, about: a longer path has them wider apart. Each border of blocks is a sample besides."""
 FELT_UM = 0.25
 """A ringing smaller than this gets no finer ticks than a single step does."""
+_TURNED_LAGS = 4.0
+"""Within so many lags behind a corner the wire cuts it off most: 1 to 1.36 on, or 2 more past more than 90°."""
+_OF_A_LAG = 50
+"""Samples there on a lag of way: of a right angle by a lag of 20 µm they show 9.6 of the 9.64 µm that are cut off."""
+_TURN_RAD = 0.01
+"""A wire cuts less than 0.004 lag off a corner of less."""
 
 _COINCIDE_S = 1e-6
 
@@ -106,15 +128,16 @@ class Ticks(NamedTuple):
         return self._replace(t_s=np.append(self.t_s[:at], t_s), row=np.append(self.row[:at], self.row_at(t_s)))
 
 
-def choose_ticks(toolpath: Toolpath, plan: Plan, rhythm: Rhythm, spacing_um: float) -> Ticks:
+def choose_ticks(toolpath: Toolpath, plan: Plan, rhythm: Rhythm, sampling: Sampling) -> Ticks:
     """Ticks of a program, from 0 until the table has come to rest after the end of the plan.
 
-    The trace gets a sample at every border of blocks and after every `spacing_um` of path.
+    The trace gets a sample at every border of blocks, and on the path as `sampling` has it.
     """
     before = toolpath.before_um
     borders = plan.time_at(before)
     rest = plan.duration_s + rhythm.died_s
-    samples = np.concatenate([plan.time_at(_spaced(before, spacing_um)), [plan.duration_s, rest]])
+    along = np.concatenate([_spaced(before, sampling.spacing_um), _behind_corners(toolpath, before, sampling)])
+    samples = np.concatenate([plan.time_at(np.sort(along)), [plan.duration_s, rest]])
     samples = _apart(np.unique(samples[samples > 0.0]))
     return Ticks(
         t_s=samples,
@@ -134,6 +157,21 @@ def _spaced(before: Floats, spacing_um: float) -> Floats:
     row = np.repeat(np.arange(len(length)), parts)
     part = np.arange(1, len(row) + 1) - (np.cumsum(parts) - parts)[row]
     return np.minimum(before[row] + length[row] * (part / parts[row]), before[row + 1])
+
+
+def _behind_corners(toolpath: Toolpath, before: Floats, sampling: Sampling) -> Floats:
+    """Path lengths of samples behind corners, where a wire that lags comes round; `SPACED` at most, about."""
+    lag_um = sampling.lag_um
+    if sampling.spacing_um * _OF_A_LAG <= lag_um or not lag_um:
+        return np.empty(0)
+    ways = directions(toolpath)
+    turn = np.hypot(*(ways.leaving[1:] - ways.arriving[:-1]).T)  # of unit vectors, so rad where it is small
+    corner = before[1:-1][turn > _TURN_RAD]
+    on = np.arange(1.0, _TURNED_LAGS * _OF_A_LAG) / _OF_A_LAG
+    on = on[:: 1 + len(on) * len(corner) // SPACED]
+    along = (corner[:, None] + on * lag_um).ravel()
+    within: Floats = along[along < before[-1]]
+    return within
 
 
 def _apart(t_s: Floats) -> Floats:

@@ -20,6 +20,7 @@ from sim.run.ballbar.circle import circle_test, run_test
 from sim.setup.machine.machine import Machine, TableEngine, load_machine
 from sim.table.follow import Following
 from sim.table.motion import Motion, Moved, TableRun, driven, motion_of
+from sim.table.ticks import Sampling
 
 THICKNESS_MM = 40.0
 RADIUS_UM = 5_000
@@ -45,7 +46,7 @@ def corners(count: int) -> str:
 def motion(text: str, machine: Machine, feeds: Feeds, spacing_um: float = 5.0) -> Motion:
     """Motion of a program from the middle of the travel."""
     middle = machine.table.travel_x_mm * 500.0, machine.table.travel_y_mm * 500.0
-    return motion_of(parse_program(text).toolpath, feeds, machine, middle, spacing_um)
+    return motion_of(parse_program(text).toolpath, feeds, machine, middle, Sampling(spacing_um))
 
 
 def cutting(length_mm: float, spacing_um: float = 5.0) -> Motion:

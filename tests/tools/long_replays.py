@@ -17,6 +17,7 @@ from sim.run.prepare import prepare
 from sim.run.recording import Recording
 from sim.show.replay.document import replay_page
 from sim.table.motion import motion_of
+from sim.table.ticks import Sampling
 from sim.table.trace import Trace, origin_um
 
 
@@ -26,7 +27,8 @@ def long_page(text: str) -> str:
     program = parse_program(text)
     scenario = plain_scenario(may_stay_open=True)
     ready = prepare(program, scenario)
-    motion = motion_of(program.toolpath, scenario.machine.feeds(40.0), scenario.machine, scenario.start_um, 5.0)
+    machine, sampling = scenario.machine, Sampling(5.0)
+    motion = motion_of(program.toolpath, machine.feeds(40.0), machine, scenario.start_um, sampling)
     timed = [time_steps(chunk, motion.drive.plan) for chunk in chunks_of(ready.steps)]
     pulses = Pulses._make(np.concatenate(column) for column in zip(*timed, strict=True))
     return replay_page(Recording(_ran(small.run, program, motion.drive.plan, pulses), small.pieces, pulses))

@@ -12,7 +12,7 @@ from parser.program import parse_program
 from sim.setup.machine.machine import Machine, Motor, TableEngine, TableModel
 from sim.table.follow import Following, Setup
 from sim.table.motion import Motion, Moved, TableRun, driven, motion_of
-from sim.table.ticks import Ticks
+from sim.table.ticks import Sampling, Ticks
 
 TICK_S = 1e-4
 """Of runs with ticks that are all alike."""
@@ -89,7 +89,7 @@ def motion(
     start_um: tuple[float, float] = CENTRE,
 ) -> Motion:
     """A program's motion on a machine."""
-    return motion_of(parse_program(text).toolpath, feeds, machine, start_um, spacing_um)
+    return motion_of(parse_program(text).toolpath, feeds, machine, start_um, Sampling(spacing_um))
 
 
 def fixed(chosen: Motion, tick_s: float = TICK_S) -> Motion:

@@ -37,6 +37,7 @@ from sim.setup.toml.reader import Bound, number
 from sim.table.losses import Loss
 from sim.table.motion import Motion, TableRun, driven, motion_of
 from sim.table.rating import motors_um
+from sim.table.ticks import Sampling
 
 FEED_MM_MIN: Final = Bound(0.1, 100_000.0)
 LEAST_RADIUS_MM: Final = 0.1
@@ -208,7 +209,7 @@ def _motion(test: CircleTest, sense: Sense) -> Motion:
     radius, table = test.radius_um, test.machine.table
     toolpath = parse_program(f"B{radius}B0B{8 * radius}GY{_WORDS[sense]}DD").toolpath
     start_um = from_mm(table.travel_x_mm / 2.0) + radius, from_mm(table.travel_y_mm / 2.0)
-    return motion_of(toolpath, Feeds(test.feed_um_s, test.feed_um_s), test.machine, start_um, _SPACING_UM)
+    return motion_of(toolpath, Feeds(test.feed_um_s, test.feed_um_s), test.machine, start_um, Sampling(_SPACING_UM))
 
 
 _DEG_DIGITS: Final = 3

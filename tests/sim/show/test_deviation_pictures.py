@@ -147,8 +147,8 @@ def test_left_of_travel_is_positive(text: str, place_um: Callable[[np.ndarray], 
 
 def test_wire_that_bows_is_told_from_its_table() -> None:
     of = of_scenario("wire-lag-corner")
-    assert np.abs(of.table_um).max() < 0.1
-    assert of.max_um == pytest.approx(9.519, abs=0.001)
+    assert np.abs(of.table_um).max() < 0.21  # µm: a step of 1 µm overshoots by less, seen where samples are close
+    assert of.max_um == pytest.approx(9.629, abs=0.001)
 
 
 def test_nothing_is_measured_past_a_trip_or_on_a_jump() -> None:
@@ -315,7 +315,7 @@ def test_whiskers_stand_apart_and_the_worst_of_each_long_block_stays() -> None:
         float(np.hypot(*np.diff(one.at, axis=0)[0]))
         for paint in (Paint.ACTUAL, Paint.ERROR)
         for one in canvas.of("polyline", paint)
-        if len(one.at) == 2
+        if len(one.at) == 2 and one.at[:, 1].max() < frame_of(canvas).bottom  # no stroke of the legend
     ]
     worst = [float(np.abs(of.wire_um[of.trace.row == row]).max()) for row in range(4)]
     longest = sorted(lengths)[-1]

@@ -9,11 +9,13 @@ from table_runs import MODEL, Drawn, draw, even_ticks, farthest_um, fixed, motio
 
 from controller.motion.limits import Feeds, MotionLimits
 from parser.program import parse_program
+from sim.cut.wire_lag import bowed
 from sim.setup.machine.machine import load_machine
 from sim.table import follow
 from sim.table.history import QUANTITIES
 from sim.table.motion import Moved, motion_of
-from sim.table.ticks import Ticks, choose_ticks, rhythm
+from sim.table.ticks import SPACED, Sampling, Ticks, choose_ticks, rhythm
+from sim.table.trace import Trace
 
 BEATS = rhythm(MODEL._replace(drive_damping_ratio=0.7))
 
@@ -22,7 +24,7 @@ def ticks_of(text: str, feeds: Feeds, limits: MotionLimits, spacing_um: float = 
     """Ticks of a program, and the times at which its blocks end."""
     toolpath = parse_program(f"{text} DD").toolpath
     plan = plan_toolpath(toolpath, feeds, limits)
-    return choose_ticks(toolpath, plan, BEATS, spacing_um), plan.time_at(np.cumsum(toolpath.length_um))
+    return choose_ticks(toolpath, plan, BEATS, Sampling(spacing_um)), plan.time_at(np.cumsum(toolpath.length_um))
 
 
 def test_ticks_rise_sample_the_end_of_every_block_and_keep_their_spacing() -> None:
@@ -49,6 +51,29 @@ def test_ticks_are_finest_at_corners_alone(text: str, fine: bool) -> None:
     ticks, borders = ticks_of(text, Feeds(1000.0, 1000.0), MotionLimits(100.0))
     at_the_corner = (ticks.shaken_s[:, 0] <= borders[0]) & (ticks.shaken_s[:, 1] > borders[0] + 0.9 * BEATS.died_s)
     assert at_the_corner.any() is np.bool_(fine)
+
+
+@pytest.mark.parametrize("lag_um", [5.0, 20.0, 150.0])
+def test_behind_a_corner_samples_show_how_far_a_wire_that_lags_cuts_it_off(lag_um: float) -> None:
+    """A right angle is cut off by 0.482 lag (`sim.cut.wire_lag`), whatever the spacing on the rest of the path."""
+    toolpath = parse_program("B3000B0B3000GXL1 B0B3000B3000GYL2 DD").toolpath
+    plan = plan_toolpath(toolpath, Feeds(50.0, 50.0), MotionLimits(100_000.0))
+    ticks = choose_ticks(toolpath, plan, BEATS, Sampling(5.0, lag_um))
+    along = np.append(0.0, plan.at(ticks.t_s).along_um)
+    guides = np.stack([np.minimum(along, 3000.0), np.maximum(along - 3000.0, 0.0)], axis=1)
+    trace = Trace(np.append(0.0, ticks.t_s), guides, guides, guides, np.append(0, ticks.row))
+    wire = bowed(trace, toolpath, lag_um).wire_um
+    off = np.minimum(np.abs(wire[:, 1]), np.abs(wire[:, 0] - 3000.0)).max()
+    assert off == pytest.approx(0.482 * lag_um, rel=2e-3)
+    assert len(ticks.t_s) < len(choose_ticks(toolpath, plan, BEATS, Sampling(5.0)).t_s) + 201
+
+
+def test_samples_behind_many_corners_are_bounded() -> None:
+    toolpath = parse_program("B10B0B10GXL1 B0B10B10GYL2 " * 4000 + "DD").toolpath
+    plan = plan_toolpath(toolpath, Feeds(50.0, 50.0), MotionLimits(100_000.0))
+    ticks = choose_ticks(toolpath, plan, BEATS, Sampling(5.0, 20.0))
+    assert len(ticks.t_s) < 2 * SPACED
+    assert np.diff(ticks.t_s).min() > 0.0
 
 
 SQUARE = "B300B0B300GXL1 B0B300B300GYL2 B300B0B300GXL3 B0B300B300GYL4 B100B0B400GYNR1 DD"
@@ -119,7 +144,7 @@ def test_axes_do_not_pull_at_one_another() -> None:
 def test_at_a_stop_as_much_is_lost_in_chosen_ticks_as_in_fine_ones() -> None:
     machine, beyond = load_machine("dk7740"), "B500B0B500GXL1 B500B0B500GXL3 DD"
     toolpath, feeds = parse_program(beyond).toolpath, machine.feeds(40.0)
-    chosen = motion_of(toolpath, feeds, machine, (399_950.0, 250_000.0), 5.0)  # 50 µm from the stop
+    chosen = motion_of(toolpath, feeds, machine, (399_950.0, 250_000.0), Sampling(5.0))  # 50 µm from the stop
     run, fine = moved(chosen), moved(fixed(chosen))
     assert [(loss.row, loss.amount_um) for loss in run.losses] == [(loss.row, loss.amount_um) for loss in fine.losses]
     assert sum(loss.amount_um for loss in run.losses) == 132.0
