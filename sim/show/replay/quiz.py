@@ -5,10 +5,9 @@ Questions about a run as a whole, each asked before one of its blocks: side, off
 A question as a replay's document holds it, and those that a scenario asks.
 """
 
-from collections import Counter
 from collections.abc import Iterator
 from random import Random
-from typing import Final, NamedTuple, get_args
+from typing import Any, Final, NamedTuple, get_args
 
 import numpy as np
 
@@ -18,6 +17,7 @@ from parser.controller_words import StepWords
 from parser.findings.catalogue import LANGUAGES, Bilingual, texts
 from parser.findings.codes import Severity
 from parser.findings.findings import Finding, edited
+from parser.geometry.curves import Ints
 from parser.program import Program, parse_program
 from parser.text.source import Field
 from sim.check.blame.settle import told_of
@@ -206,7 +206,14 @@ def quiz_of(run: DryRun, steps: Pulses) -> QuizEntry:
 
 def sets_of(pool: list[QuestionEntry]) -> list[list[int]]:
     """For each set the indices of its questions, in the order of their rows; none where the pool is empty."""
-    return [_set(pool, number) for number in range(1, SETS + 1)] if pool else []
+    kind, block = (_numbered([entry[key] for entry in pool]) for key in ("about", "block"))
+    return [_set(kind, block, number) for number in range(1, SETS + 1)] if pool else []
+
+
+def _numbered(values: list[Any]) -> Ints:
+    """Values as numbers from 0, the same for the same."""
+    numbers = {value: number for number, value in enumerate(dict.fromkeys(values))}
+    return np.array([numbers[value] for value in values], dtype=np.int64)
 
 
 def _pool(run: DryRun, steps: Pulses, words: StepWords) -> list[QuestionEntry]:
@@ -227,17 +234,17 @@ def _kinds(run: DryRun) -> tuple[About, ...]:
     return every if run.toolpath.words is not None else ("turn", "end")
 
 
-def _set(pool: list[QuestionEntry], number: int) -> list[int]:
-    """Questions of as many kinds about as many blocks as there are, the others left to chance."""
+def _set(kind: Ints, block: Ints, number: int) -> list[int]:
+    """Questions, by their kinds and blocks (n,), of as many of both as there are; the others left to chance."""
     chance = Random(number)  # noqa: S311 - the same for all who are told the number
-    order = sorted(range(len(pool)), key=lambda _: chance.random())
+    order = np.array(sorted(range(len(kind)), key=lambda _: chance.random()), dtype=np.int64)
+    of_kind, of_block = np.zeros(len(kind), dtype=np.int64), np.zeros(len(kind), dtype=np.int64)  # chosen ones
     chosen: list[int] = []
-    kinds: Counter[str | None] = Counter()
-    blocks: Counter[int] = Counter()
-    while order and len(chosen) < IN_A_SET:
-        best = min(order, key=lambda at: (kinds[pool[at]["about"]], blocks[pool[at]["block"]]))
-        order.remove(best)
+    while len(order) and len(chosen) < IN_A_SET:
+        at = int(np.argmin(of_kind[kind[order]] * (IN_A_SET + 1) + of_block[block[order]]))
+        best = int(order[at])
+        order = np.delete(order, at)
         chosen.append(best)
-        kinds[pool[best]["about"]] += 1
-        blocks[pool[best]["block"]] += 1
+        of_kind[kind[best]] += 1
+        of_block[block[best]] += 1
     return sorted(chosen)
