@@ -302,7 +302,7 @@ def of_drawing(making: Making, drawing: DrawingTarget) -> Making:
     )
 
 
-def refuse_odd(making: Making, where: str) -> None:
+def refuse_odd(making: Making, where: str | Message) -> None:
     """SettingsError where numbers are out of their bounds, or say what cannot be meant."""
     number(making.tolerance_um, FIT_UM, _named(where, "name-tolerance"))
     number(making.held_to_um, TOLERANCE_UM, _named(where, "name-part-tolerance"))
@@ -341,7 +341,7 @@ def _refuse_odd_codes(writing: Writing, where: str) -> None:
         raise SettingsError("same-end-and-pause", where=where)
 
 
-def _refuse_odd_passes(passes_um: tuple[float, ...], where: str) -> None:
+def _refuse_odd_passes(passes_um: tuple[float, ...], where: str | Message) -> None:
     if not passes_um:
         return
     number(len(passes_um), PASSES, _named(where, "name-passes"))
@@ -353,6 +353,6 @@ def _refuse_odd_passes(passes_um: tuple[float, ...], where: str) -> None:
         raise SettingsError("pass-of-offset-0", where=where)
 
 
-def _named(where: str, name: str) -> Message:
+def _named(where: str | Message, name: str) -> Message:
     """What a number is called in a message: the name that stands in the texts, behind its place."""
     return Message("in-file", file=where, message=Message(name))

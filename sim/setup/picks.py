@@ -2,7 +2,7 @@
 
 from typing import Any, NamedTuple
 
-from parser.findings.errors import SettingsError
+from parser.findings.errors import Message, SettingsError
 from parser.toolpath import Point
 from parser.units import from_mm
 from sim.setup.toml.kinds import MOST, ValueKind, in_mm
@@ -65,7 +65,7 @@ def _in_words(place_um: Point) -> str:
     return f"{in_mm(place_um.x):g},{in_mm(place_um.y):g}"
 
 
-def pick_of(text: str, where: str) -> Pick:
+def pick_of(text: str, where: str | Message) -> Pick:
     """What a text picks: ``2F``, ``12.5,8``, ``0,0..40,30``, ``layer:CUT``, ``color:1``; lengths in mm.
 
     SettingsError where it picks nothing.

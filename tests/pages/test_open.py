@@ -1,6 +1,7 @@
 """The page of drycut open in a real browser: a program comes in, is seen, edited, mended and saved."""
 
 import json
+import math
 import re
 import zipfile
 from collections.abc import Callable, Iterator
@@ -454,6 +455,59 @@ def places_of(shown: Tab) -> Callable[[float, float], tuple[float, float]]:
     return lambda x, y: (this[0] + scale[0] * (x - at[0]), this[1] + scale[1] * (y - at[1]))
 
 
+def planned(page: "Page", said: str = "Plan, not proved") -> None:
+    """Wait until the plan of a drawing says something."""
+    page.locator("#drawing-told li", has_text=said).wait_for()
+
+
+def test_the_plan_is_drawn_at_once_and_follows_each_change(
+    browsers: Browsers, empty: OpenedPage, tmp_path: Path
+) -> None:
+    def plate(space: Modelspace) -> None:
+        space.add_lwpolyline([(0, 0), (40, 0), (40, 10), (0, 10)], close=True)
+        for x in (8, 20, 32):
+            space.add_circle((x, 5), 2.5)
+
+    def lengths() -> float:
+        return float(re.findall(r"([\d.]+) mm of way", page.inner_text("#drawing-told"))[0])
+
+    with tab(browsers, empty.address) as shown:
+        page = shown.page
+        page.set_input_files("#pick", drawn(tmp_path, plate))
+        planned(page, "4 figures")
+        at, around = places_of(shown), 2.0 * (40.2 + 10.2)  # mm round the plate, a wire of 0.18 mm and its gap outside
+        usual = lengths()
+        assert usual == pytest.approx(around + 3.8 + 3 * 2.0 * math.pi * 2.4 + 3 * 2 * 2.4, abs=0.01)  # and leads
+        page.select_option("#click-does", "order")
+        for x in (32, 8):
+            page.mouse.click(*at(x, 5))
+        assert page.input_value("#order") == "3,1"
+        page.mouse.click(*at(32, 2.6))  # on its way, as on its number
+        assert page.input_value("#order") == "1"
+        page.fill("#order", "4, 1")
+        planned(page, "would have fallen with it")
+        page.fill("#order", "3")
+        planned(page)
+        page.select_option("#click-does", "starts")
+        with page.expect_response("**/plan") as answered:
+            page.mouse.click(*at(20, -5))
+        path = answered.value.json()["path"]
+        assert min(path["place_y_um"]) == pytest.approx(-5000.0, abs=200.0), "the wire is threaded there"
+        page.mouse.move(*at(20, -5))
+        page.mouse.down()
+        seen = set()
+        for y in (-4.5, -4.0, -3.5, -3.0):  # the plan is drawn while the mark is dragged
+            with page.expect_response("**/plan") as answered:
+                page.mouse.move(*at(20, y))
+            seen.add(round(min(answered.value.json()["path"]["place_y_um"]), -2))
+        page.mouse.up()
+        assert len(seen) > 1
+        page.select_option("#wire-side", "outside")
+        page.click("#make")
+        shown.waits_for("fail")  # all outside: the holes are cut too large
+        assert page.locator("#drawing-told li", has_text="Plan").count() == 0, "the program is drawn in its place"
+
+
 def test_what_is_clicked_in_the_picture_is_cut_alone(browsers: Browsers, empty: OpenedPage, tmp_path: Path) -> None:
     def two(space: Modelspace) -> None:
         for x in (0, 20):
@@ -462,8 +516,7 @@ def test_what_is_clicked_in_the_picture_is_cut_alone(browsers: Browsers, empty: 
     with tab(browsers, empty.address) as shown:
         page = shown.page
         page.set_input_files("#pick", drawn(tmp_path, two))
-        page.wait_for_selector("#drawing:not([hidden])")
-        page.wait_for_selector("#drawing-told:empty", state="attached")
+        planned(page)
         at = places_of(shown)
         for x, picked in ((22, 1), (2, 2), (2, 1)):  # a second click on a mark takes it back
             page.mouse.click(*at(x, 2))
@@ -487,10 +540,9 @@ def test_a_click_sets_a_thread_point_where_it_is_to(browsers: Browsers, empty: O
     with tab(browsers, empty.address) as shown:
         page = shown.page
         page.set_input_files("#pick", drawn(tmp_path, plate))
-        page.wait_for_selector("#drawing:not([hidden])")
-        page.wait_for_selector("#drawing-told:empty", state="attached")
+        planned(page)
         at = places_of(shown)
-        page.check("#click-starts")
+        page.select_option("#click-does", "starts")
         page.mouse.click(*at(7, 5))
         x, y = map(float, page.input_value("#starts").split(","))
         assert (x, y) == pytest.approx((7.0, 5.0), abs=0.2)
@@ -513,8 +565,7 @@ def test_a_mark_is_dragged_where_it_is_to_and_the_picture_stays(
             "#pick",
             drawn(tmp_path, lambda space: space.add_lwpolyline([(0, 0), (20, 0), (20, 10), (0, 10)], close=True)),
         )
-        page.wait_for_selector("#drawing:not([hidden])")
-        page.wait_for_selector("#drawing-told:empty", state="attached")
+        planned(page)
         at = places_of(shown)
         page.fill("#starts", "2F; 7,5")
         page.fill("#picks", "layer:CUT; 3,3; 15,8")
@@ -533,7 +584,7 @@ def test_a_mark_is_dragged_where_it_is_to_and_the_picture_stays(
             assert (x, y) == pytest.approx(to, abs=0.2)
         page.mouse.move(*at(18, 3))
         assert places_of(shown)(5, 5) == pytest.approx(at(5, 5), abs=1.0), "the picture was not moved"
-        page.check("#click-starts")
+        page.select_option("#click-does", "starts")
         page.mouse.click(*at(10, -3))  # a click takes it back, as before
         assert page.input_value("#starts") == "2F"
 

@@ -89,7 +89,7 @@ def app_of(programs: Programs, drawings: Drawings, life: Life, runs: Runs) -> St
     running, drawn = Running(life, runs, programs, drawings), Drawn(drawings, runs)
     works: list[Work] = [files.first, files.read, files.save, files.alive, files.close]
     works += [files.program, files.example, files.rows, files.again, files.row]
-    works += [drawn.look, drawn.draft, drawn.drafted]
+    works += [drawn.look, drawn.plan, drawn.draft, drawn.drafted]
     works += [texts.check, texts.version, texts.lines, running.run, running.more, running.progress, running.cancel]
     return Starlette(
         routes=[

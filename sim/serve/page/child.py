@@ -16,6 +16,7 @@ import sys
 import threading
 import time
 from collections.abc import AsyncIterator, Callable, Mapping, Sequence
+from queue import SimpleQueue
 from typing import Any, Final
 
 from parser.findings.errors import DrycutError
@@ -45,6 +46,24 @@ def do(jobs: Mapping[str, Job], warm_up: Callable[[], None] | None = None) -> No
         _tell(done=jobs[query["job"]](query))
     except DrycutError as error:
         _tell(wrong=error.in_both()._asdict())
+
+
+def do_each(job: Job) -> None:
+    """Do a job for each line that asks for it, one behind the other, until the server ends."""
+    requests: SimpleQueue[PageRequest] = SimpleQueue()
+    threading.Thread(target=_queue_requests, args=(requests,), daemon=True).start()
+    while True:
+        query = requests.get()
+        try:
+            _tell(done=job(query))
+        except DrycutError as error:
+            _tell(wrong=error.in_both()._asdict())
+
+
+def _queue_requests(requests: "SimpleQueue[PageRequest]") -> None:
+    for line in sys.stdin.buffer:
+        requests.put(json.loads(line))
+    os._exit(0)
 
 
 def read_request() -> Any:
@@ -107,6 +126,17 @@ class Child:
         await self._process.wait()
         stdin.close()
 
+    async def answer(self, query: object) -> dict[str, Any]:
+        """What it tells of one of the many things that it is asked (`do_each`); nothing where it ended."""
+        stdin, stdout = self._process.stdin, self._process.stdout
+        assert stdin is not None  # noqa: S101 - asked for
+        assert stdout is not None  # noqa: S101 - asked for
+        with contextlib.suppress(BrokenPipeError, ConnectionResetError):
+            stdin.write(f"{json.dumps(query)}\n".encode())
+            await stdin.drain()
+        line = await stdout.readline()
+        return dict(json.loads(line)) if line.endswith(b"\n") else {}
+
     @property
     def is_alive(self) -> bool:
         """Whether it has not ended yet."""
@@ -118,7 +148,7 @@ class Child:
             self._process.kill()
 
     async def close(self) -> None:
-        """End one that was given no job."""
+        """End one that waits for what it is asked."""
         self.end()
         stdin = self._process.stdin
         assert stdin is not None  # noqa: S101 - asked for

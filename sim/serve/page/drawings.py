@@ -38,13 +38,18 @@ MAKE_KEYS: Final = (
     "common_edges",
     "picks",
     "starts",
+    "order",
+    "wire_side",
+    "direction",
     *READ_KEYS,
 )
 """What it says where a program is to be made; empty texts leave what is usual."""
+PLAN_KEYS: Final = (*MAKE_KEYS, "placement")
+"""What it says where it shows a plan: how the drawing lies beneath its program, too."""
 _MOST: Final = 20
 """Drawings that are kept, the last ones."""
 _LONGEST_S: Final = 60.0
-"""Of a look."""
+"""Of a look, and of a plan."""
 _MARK: Final = rb"(?:\xef\xbb\xbf)?"
 _BEGINS: Final = re.compile(_MARK + rb"(?:AutoCAD Binary DXF|\s*(?:999[^\n]*\n[^\n]*\n\s*)*0\s*\n\s*SECTION)")
 
@@ -56,7 +61,7 @@ def is_drawing(name: str, data: bytes) -> bool:
 
 
 class Drawings:
-    """The drawings, and a look at them.
+    """The drawings, looks at them, and plans of them.
 
     Parameters
     ----------
@@ -67,6 +72,8 @@ class Drawings:
     def __init__(self, folder: Path) -> None:
         self._folder = folder / "drawings"
         self._files: list[Path] = []
+        self._planner: Child | None = None
+        self._turn = asyncio.Lock()
 
     def keep(self, name: str, data: bytes) -> str:
         """The number of a drawing that came."""
@@ -101,6 +108,34 @@ class Drawings:
         finally:
             child.end()
         return result.read_bytes() if "done" in last else _why(last.get("wrong"))
+
+    async def plan(self, file: Path, query: dict[str, str]) -> bytes:
+        """What would be cut of a drawing, in JSON: ``why`` alone where nothing can be, or it took too long.
+
+        One process makes one plan behind the other, so that each takes no more than the plan itself.
+        """
+        result = file.with_name("plan.json")
+        task = {**query, "drawing_file": str(file), "result_file": str(result)}
+        async with self._turn:
+            if self._planner is None or not self._planner.is_alive:
+                self._planner = await begun("sim.serve.page.planner")
+            try:
+                last = await asyncio.wait_for(self._planner.answer(task), _LONGEST_S)
+            except TimeoutError:
+                last = {}
+            if not last:
+                await self._end_planner()
+            return result.read_bytes() if "done" in last else _why(last.get("wrong"))
+
+    async def end(self) -> None:
+        """End the process of the plans."""
+        async with self._turn:
+            await self._end_planner()
+
+    async def _end_planner(self) -> None:
+        planner, self._planner = self._planner, None
+        if planner is not None:
+            await planner.close()
 
 
 async def _last(child: Child, query: dict[str, str]) -> dict[str, Any]:

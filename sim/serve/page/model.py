@@ -45,6 +45,25 @@ class LookedEntry(TypedDict):
     why: NotRequired[SaidEntry | None]
 
 
+class PlannedFigureEntry(TypedDict):
+    """A figure of a plan: its number, its first row of the path and one past its last, and its thread point."""
+
+    number: int
+    first: int
+    past: int
+    thread_um: Point
+
+
+class PlannedEntry(TypedDict):
+    """What would be cut of a drawing, as it lies beneath the program, not proved; else why nothing."""
+
+    path: NotRequired[CurvesEntry]
+    is_lead: NotRequired[list[bool]]
+    figures: NotRequired[Annotated[list[PlannedFigureEntry], "in the order in which they are cut"]]
+    told: NotRequired[list[SaidEntry]]
+    why: NotRequired[SaidEntry | None]
+
+
 class DraftedEntry(TypedDict):
     """The program that was made of a drawing, none where it was refused; what there is to say, and of its proof."""
 
@@ -201,5 +220,5 @@ class RunStateEntry(RanEntry, total=False):
     files: Annotated[list[MadeFileEntry], "once it has ended well"]
 
 
-ANSWERS = (AnswerEntry, ChangesEntry, DraftedEntry, LookedEntry, RowsEntry, RunStateEntry)
+ANSWERS = (AnswerEntry, ChangesEntry, DraftedEntry, LookedEntry, PlannedEntry, RowsEntry, RunStateEntry)
 """What the server answers; the models of their parts are found from them."""

@@ -28,7 +28,7 @@ from starlette.responses import FileResponse, JSONResponse, Response, StreamingR
 
 from parser.text.encoding import printable
 from sim.serve.page.child import Child, Life, begun
-from sim.serve.page.drawings import LOOK_KEYS, MAKE_KEYS, Drawings, safe_name
+from sim.serve.page.drawings import LOOK_KEYS, MAKE_KEYS, PLAN_KEYS, Drawings, safe_name
 from sim.serve.page.programs import Programs
 from sim.setup.settable import FIELDS
 
@@ -311,6 +311,14 @@ class Drawn:
         if file is None:
             return Response(status_code=MISSING)
         return Response(await self._drawings.look(file, query), media_type="application/json")
+
+    async def plan(self, request: Request) -> Response:
+        """What would be cut of a drawing, as it lies beneath a text."""
+        query = await told(request, "drawing", *PLAN_KEYS)
+        file = self._drawings.file(query["drawing"])
+        if file is None:
+            return Response(status_code=MISSING)
+        return Response(await self._drawings.plan(file, query), media_type="application/json")
 
     async def draft(self, request: Request) -> Response:
         """Make a program of a drawing."""

@@ -167,9 +167,9 @@ def serve(programs: Programs, port: int, ready: Callable[[str, Path], None]) -> 
     life = Life()
     with _ended_by_signals(life), _listening(port) as listening, scratch() as folder:
         address = Address(f"{_HOST}:{listening.getsockname()[1]}", secrets.token_urlsafe(24))
-        runs = Runs(folder)
+        runs, drawings = Runs(folder), Drawings(folder)
         config = uvicorn.Config(
-            Guard(app_of(programs, Drawings(folder), life, runs), address),
+            Guard(app_of(programs, drawings, life, runs), address),
             lifespan="off",
             log_level="critical",
             access_log=False,
@@ -178,7 +178,8 @@ def serve(programs: Programs, port: int, ready: Callable[[str, Path], None]) -> 
         )
         server = _Server(config)
         way = _way_to(address, folder)
-        asyncio.run(_run(server, listening, life, lambda: ready(address.url, way), [runs.end, programs.end]))
+        ends = [runs.end, drawings.end, programs.end]
+        asyncio.run(_run(server, listening, life, lambda: ready(address.url, way), ends))
 
 
 def _way_to(address: Address, folder: Path) -> Path:

@@ -8,7 +8,7 @@ from typing import Final
 from parser.drawing.model import DEFAULT_GAP_UM
 from parser.units import mm
 from sim.setup.machine.machine import machine_names
-from sim.setup.making import LANGUAGES
+from sim.setup.making import DIRECTION_WISHES, LANGUAGES, SIDE_WISHES
 from sim.setup.part import DRAWING_UNITS, OFFSET_MM
 from sim.setup.scenario import DEFAULT_MACHINE
 from sim.setup.settable import FIELDS
@@ -35,6 +35,8 @@ def open_page(starts: Sequence[str]) -> tuple[str, str]:
         machines=machine_names(),
         languages=LANGUAGES,
         units=DRAWING_UNITS,
+        sides=SIDE_WISHES,
+        directions=DIRECTION_WISHES,
         join=f"{mm(DEFAULT_GAP_UM):g}",
         default_machine=DEFAULT_MACHINE,
         fields=FIELDS,

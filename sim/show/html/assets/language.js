@@ -74,6 +74,7 @@ export function nameControls() {
     control.setAttribute("aria-label", name);
     control.title = name;
   }
+  for (const option of elements("[data-text-en]")) option.textContent = option.dataset[isChinese() ? "textZh" : "textEn"] ?? "";
 }
 
 /**

@@ -5,7 +5,7 @@
  * page, and the machine and the thickness that the form says.
  * @typedef {{ name: string, text: string, number: string, machine: string, thickness_mm: string }} Checked
  */
-/** @import { Answer, Changes, Drafted, FileText, Looked, Row, Rows, RunState } from "./data.js" */
+/** @import { Answer, Changes, Drafted, FileText, Looked, Planned, Row, Rows, RunState } from "./data.js" */
 
 /**
  * The answer to a request.
@@ -186,6 +186,15 @@ export async function close() {
  */
 export async function look(told) {
   return (await ask("look", JSON.stringify(told))).json();
+}
+
+/**
+ * What would be cut of a drawing.
+ * @param {Record<string, string>} told
+ * @returns {Promise<Planned>}
+ */
+export async function plan(told) {
+  return (await ask("plan", JSON.stringify(told))).json();
 }
 
 /**

@@ -145,6 +145,25 @@
  */
 
 /**
+ * What would be cut of a drawing, as it lies beneath the program, not proved; else why nothing.
+ * @typedef {object} Planned
+ * @property {Curves} [path]
+ * @property {boolean[]} [is_lead]
+ * @property {PlannedFigure[]} [figures] in the order in which they are cut
+ * @property {Said[]} [told]
+ * @property {Said | null} [why]
+ */
+
+/**
+ * A figure of a plan: its number, its first row of the path and one past its last, and its thread point.
+ * @typedef {object} PlannedFigure
+ * @property {number} number
+ * @property {number} first
+ * @property {number} past
+ * @property {Place} thread_um
+ */
+
+/**
  * How far the check of a folder is.
  * @typedef {object} Rows
  * @property {Row[]} rows

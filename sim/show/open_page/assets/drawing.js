@@ -3,10 +3,11 @@ import * as asked from "./asked.js";
 import { element, make } from "../../html/assets/elements.js";
 import * as language from "../../html/assets/language.js";
 import { IN_PLACE, lifted, moved, numberAt, placesIn, toggled } from "./picks.js";
+import { completed, reordered, wirePlan } from "./plan.js";
 
 /** @import { Said } from "../../html/assets/language.js" */
 /** @import { Curves } from "../../replay/assets/document.js" */
-/** @import { Drafted, FileText, RunState } from "./data.js" */
+/** @import { Drafted, FileText, Planned, PlannedFigure, RunState } from "./data.js" */
 
 /**
  * What the drawing is told, and whom it tells.
@@ -18,6 +19,9 @@ import { IN_PLACE, lifted, moved, numberAt, placesIn, toggled } from "./picks.js
  * @property {(curves: Curves | null) => void} beneath draws it under the path
  * @property {(picks: [x: number, y: number][], starts: [x: number, y: number][]) => void} picked marks what is picked, and
  *   thread points
+ * @property {(plan: Planned | null) => void} planned draws a plan over it
+ * @property {(place: [x: number, y: number], nearUm: number) => PlannedFigure | null} figureAt the figure of the plan at a
+ *   place
  * @property {(key: string) => void} tell says what went wrong
  */
 
@@ -37,7 +41,10 @@ export function wireDrawing(around) {
   const common = element("#common-edges", HTMLInputElement);
   const picks = element("#picks", HTMLInputElement);
   const starts = element("#starts", HTMLInputElement);
-  const setsStarts = element("#click-starts", HTMLInputElement);
+  const order = element("#order", HTMLInputElement);
+  const side = element("#wire-side", HTMLSelectElement);
+  const direction = element("#direction", HTMLSelectElement);
+  const clickDoes = element("#click-does", HTMLSelectElement);
   const join = element("#join", HTMLInputElement);
   const unit = element("#unit", HTMLSelectElement);
   let placement = IN_PLACE;
@@ -54,6 +61,17 @@ export function wireDrawing(around) {
   let made = [];
   /** @type {Said[]} */
   let seen = [];
+  /** @type {Planned | null} */
+  let planned = null;
+  /** @type {PlannedFigure[]} of the last plan that there was */
+  let figures = [];
+  let isPlanning = false;
+  const plan = wirePlan(() => (number && isPlanning ? { ...wishes(), placement: JSON.stringify(placement) } : null), (found) => {
+    planned = found;
+    if (found?.figures) figures = found.figures;
+    around.planned(found);
+    show();
+  });
 
   /** Show which drawing there is, and what was told of it. */
   function show() {
@@ -62,7 +80,17 @@ export function wireDrawing(around) {
     const [picked, threaded] = [picks, starts].map((field) => (number ? placesIn(field.value, placement) : []));
     around.picked(picked, threaded);
     if (!made.length) list.className = "";
-    list.replaceChildren(...(made.length ? made : seen).map((said) => make("li", {}, language.pick(said))));
+    const ofPlan = planned?.told ?? (planned?.why ? [planned.why] : []);
+    const lines = made.length ? made : [...seen, ...ofPlan];
+    list.replaceChildren(...lines.map((said) => make("li", {}, language.pick(said))));
+  }
+
+  /** Plan anew: something is asked for otherwise. */
+  function changed() {
+    isPlanning = true;
+    made = [];
+    show();
+    plan();
   }
 
   /** How it is read. */
@@ -70,11 +98,20 @@ export function wireDrawing(around) {
     return { join_mm: join.value.trim(), unit: unit.value };
   }
 
+  /** What is asked of a program. */
+  function wishes() {
+    const texts = { language: written, offset_mm: passes, tab_mm: tab, led_um: lag, picks, starts, wire_side: side, direction };
+    const own = Object.fromEntries(Object.entries(texts).map(([key, field]) => [key, field.value.trim()]));
+    const [no_core, common_edges] = [noCore, common].map((box) => (box.checked ? "yes" : ""));
+    return { ...around.values(), drawing: number, ...own, no_core, common_edges, order: completed(order.value, figures), ...reading() };
+  }
+
   /** Take the drawing away. */
   function away() {
-    number = picks.value = starts.value = "";
+    number = picks.value = starts.value = order.value = "";
     made = seen = [];
     around.beneath(null);
+    plan();
     show();
   }
 
@@ -92,6 +129,7 @@ export function wireDrawing(around) {
         seen = found.told;
         placement = found.placement ?? IN_PLACE;
         around.beneath(found.curves);
+        plan();
       } else {
         away();
         seen = [found.why ?? language.said("no-look")];
@@ -107,27 +145,31 @@ export function wireDrawing(around) {
     // Its offsets are worked into the program; those of the form of the run a controller would add to them.
     making = number;
     led = lag.value.trim();
-    const own = { language: written.value, offset_mm: passes.value.trim(), tab_mm: tab.value.trim(), picks: picks.value, starts: starts.value };
-    const [no_core, common_edges] = [noCore, common].map((box) => (box.checked ? "yes" : ""));
-    const how = { led_um: lag.value.trim(), no_core, common_edges, ...reading() };
-    around.follow(asked.draft({ ...around.values(), drawing: number, ...own, ...how }));
+    around.follow(asked.draft(wishes()));
   });
   for (const field of [join, unit]) field.addEventListener("change", look);
-  for (const field of [picks, starts]) field.addEventListener("input", show);
+  picks.addEventListener("input", () => { order.value = ""; }); // figures have other numbers then
+  for (const field of [picks, starts, order, passes, tab, lag, noCore, common, side, direction]) field.addEventListener("input", changed);
   language.onChange(show);
 
   return {
     /**
-     * Pick what lies at a place of the picture, µm, or set a thread point there, as a click is to; or take the one near it
-     * back. Whether there is a drawing to be clicked on.
+     * Pick what lies at a place of the picture, µm, set a thread point there, or put its figure in the order, as a click is
+     * to; or take that back. Whether there is a drawing to be clicked on.
      * @param {[x: number, y: number]} place
      * @param {number} nearUm
      */
     pick(place, nearUm) {
       if (!number || element("#panel-drawing", HTMLElement).hidden) return false;
-      const field = setsStarts.checked ? starts : picks;
-      field.value = toggled(field.value, lifted(placement, place), nearUm);
-      show();
+      if (clickDoes.value === "order") {
+        const figure = around.figureAt(place, nearUm);
+        if (figure) order.value = reordered(order.value, figure.number);
+      } else {
+        const field = clickDoes.value === "starts" ? starts : picks;
+        field.value = toggled(field.value, lifted(placement, place), nearUm);
+        if (field === picks) order.value = "";
+      }
+      changed();
       return true;
     },
     /**
@@ -143,7 +185,7 @@ export function wireDrawing(around) {
         if (of < 0) continue;
         return (to) => {
           field.value = moved(field.value, of, lifted(placement, to));
-          show();
+          changed();
         };
       }
       return null;
@@ -158,7 +200,9 @@ export function wireDrawing(around) {
      */
     async take(newNumber, newFile) {
       [number, file, made, placement] = [newNumber, newFile, [], IN_PLACE];
-      picks.value = starts.value = "";
+      picks.value = starts.value = order.value = "";
+      [planned, figures, isPlanning] = [null, [], !around.current().text.trim()];
+      around.planned(null);
       element("#tab-drawing", HTMLElement).click();
       show();
       await look();
@@ -176,6 +220,8 @@ export function wireDrawing(around) {
           proved = { text: program.text, verdict };
           if (led) element("[name=lag_um]", HTMLInputElement).value = led; // it is made for that wire
           around.begin(program);
+          isPlanning = false; // it is drawn now as it is written
+          plan();
         }
         made = told;
         list.className = verdict === "pass" ? "proved" : verdict === "to-check" ? "doubted" : "unproved";

@@ -64,6 +64,8 @@ const drawing = wireDrawing({
     show();
   },
   picked: picture.pick,
+  planned: picture.plan,
+  figureAt: picture.figureAt,
   tell,
 });
 const files = wireFiles({

@@ -9,13 +9,14 @@ import { penOf } from "../../replay/assets/pen.js";
 import { differing } from "./differing.js";
 import { wireMeasuring } from "./measuring.js";
 import { drawPicks, drawStarts } from "./picks.js";
+import { drawPlan, figureAt } from "./plan.js";
 import { rowAt } from "./snap.js";
 import { drawAxes, drawBand, drawPlayed } from "./under_path.js";
 import { drawWire } from "../../replay/assets/wire.js";
 import { drawScaleBar } from "../../replay/assets/scale_bar.js";
 import { wirePointing } from "./pointing.js";
 
-/** @import { Figure, Finding, Path } from "./data.js" */
+/** @import { Figure, Finding, Path, Planned } from "./data.js" */
 /** @import { Curves } from "../../replay/assets/document.js" */
 /** @import { Different } from "./differing.js" */
 /** @import { Path as Drawn } from "../../replay/assets/path.js" */
@@ -40,6 +41,8 @@ export function pictureOf(canvas, on) {
   let others = differing(null, null);
   /** @type {ReturnType<typeof pathOf> | null} */
   let drawing = null;
+  /** @type {{ plan: Planned, drawn: ReturnType<typeof pathOf> } | null} */
+  let planned = null;
   /** @type {Figure[]} */
   let figures = [];
   /** @type {Finding[]} */
@@ -154,6 +157,7 @@ export function pictureOf(canvas, on) {
     if (shown?.moment.t) drawWire(pen, view, shown.moment, 0, shown.show.wireUm, colours);
     drawPicks(pen, view, picks, shades.accent);
     drawStarts(pen, view, starts, shades.accent);
+    if (planned) drawPlan(pen, view, planned.plan, planned.drawn, shades);
     measuring.draw(pen, shades.accent);
     drawScaleBar(pen, view, colours);
   }
@@ -320,6 +324,23 @@ export function pictureOf(canvas, on) {
     pick(newPicks, newStarts) {
       [picks, starts] = [newPicks, newStarts];
       later();
+    },
+    /**
+     * A plan over the drawing; null for none.
+     * @param {Planned | null} plan
+     */
+    plan(plan) {
+      planned = plan?.path ? { plan, drawn: pathOf(plan.path) } : null;
+      later();
+    },
+    /**
+     * The figure of the plan at a place, µm; null where none is near.
+     * @param {[x: number, y: number]} place
+     * @param {number} nearUm
+     */
+    figureAt(place, nearUm) {
+      const { plan, drawn: way } = planned ?? {};
+      return plan?.path && way ? figureAt(plan.figures ?? [], place, rowAt(plan.path, way, place, nearUm), nearUm) : null;
     },
     fit() {
       fit();

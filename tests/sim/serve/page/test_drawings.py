@@ -1,6 +1,8 @@
 """Drawings on the page: laid beneath a program, made into one, and what a run is held against."""
 
 import json
+import math
+import re
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -14,7 +16,7 @@ from opened_page import OpenedPage, opened_page
 from parser.findings.errors import DrawingError, SettingsError
 from sim.serve.page.answers import answer
 from sim.serve.page.drafter import _look, _make
-from sim.serve.page.drawings import LOOK_KEYS, MAKE_KEYS, is_drawing
+from sim.serve.page.drawings import LOOK_KEYS, MAKE_KEYS, PLAN_KEYS, is_drawing
 
 # The plate of `plate` as a punch: the wire of 0.18 mm and its gap of 10 µm run 0.1 mm outside, from a thread point
 # that lies 1 mm above its upper edge, at (0, 0) of the program.
@@ -138,6 +140,59 @@ def test_where_no_edge_can_be_told_it_lies_as_it_is_and_says_why(drawing: Path, 
     found = looked(drawing, "B1000B0B1000GXL1\nDD\n", tmp_path / "look.json")
     assert extent(found["curves"]) == (30_000.0, 40_000.0, 50_000.0, 50_000.0)
     assert "no contour of the program closes a loop" in found["told"][-1]["en"]
+
+
+def planned(served: OpenedPage, number: str, **values: str) -> Any:
+    laid = {"turn_rad": 0.0, "shift_um": [0.0, 0.0], "mirror": False}
+    told = {**dict.fromkeys(PLAN_KEYS, ""), "language": "3b", "placement": json.dumps(laid), "drawing": number}
+    return json.loads(served.ask("plan", json.dumps({**told, **values})).body)
+
+
+def test_plans_are_those_that_the_maker_has_and_lie_as_the_drawing_does(served: OpenedPage, dxf: bytes) -> None:
+    number = came(served, dxf)
+    plan = planned(served, number)
+    (figure,) = plan["figures"]
+    assert (figure["number"], figure["first"], figure["past"]) == (1, 0, len(plan["path"]["kind"]))
+    assert figure["thread_um"] == [plan["path"]["place_x_um"][0], plan["path"]["place_y_um"][0]]
+    assert extent(plan["path"])[::3] == (29_900.0, 50_100.0)  # µm: 0.1 mm outside
+    assert plan["is_lead"][0], "from its thread point the wire comes by a lead"
+    assert [said["en"] for said in plan["told"]] == ["Plan, not proved: 1 figure, 64.600 mm of way."]
+    assert sum(plan["path"]["length_um"]) == pytest.approx(2.0 * (20_200.0 + 10_200.0) + 2.0 * 1_900.0)  # and its leads
+    turned = {"turn_rad": math.pi / 2.0, "shift_um": [1000.0, 0.0], "mirror": False}
+    laid = planned(served, number, placement=json.dumps(turned))
+    x, y = plan["path"]["place_x_um"], plan["path"]["place_y_um"]
+    assert laid["path"]["place_x_um"] == pytest.approx([1000.0 - each for each in y], abs=1e-3)
+    assert laid["path"]["place_y_um"] == pytest.approx(x, abs=1e-3)
+
+
+def test_a_plan_that_cannot_be_says_why_by_the_controls_of_the_page(served: OpenedPage, dxf: bytes) -> None:
+    number = came(served, dxf)
+    for values, said in (
+        ({"order": "2"}, "2"),
+        ({"order": "x"}, "the order of figures"),
+        ({"wire_side": "left"}, "nesting, inside, outside"),
+        ({"passes": "", "offset_mm": "0.1 0.2"}, "the program: "),
+    ):
+        why = planned(served, number, **values)["why"]
+        assert said in why["en"]
+        assert "--" not in why["en"]
+    assert planned(served, number, placement="nonsense")["why"] is None  # no page sends that: its process ended
+    assert planned(served, number)["figures"], "another one plans on"
+    assert served.ask("plan", json.dumps({**dict.fromkeys(PLAN_KEYS, ""), "drawing": "99"})).status == 404
+
+
+def test_order_side_and_direction_of_the_page_are_those_of_the_program(tmp_path: Path) -> None:
+    def holes(space: Modelspace) -> None:
+        for x in (0.0, 20.0, 40.0):
+            space.add_circle((x, 0.0), 5.0)
+
+    file = drawn(tmp_path, holes)
+    text = made(file, tmp_path / "made.json", wire_side="inside", direction="cw", order="2 ，3 1")["program"]["text"]
+    arcs = [line for line in text.splitlines() if re.search(r"[SN]R[1-4]$", line)]
+    assert {re.sub(r".*([SN]R)\d$", r"\1", line) for line in arcs} == {"SR"}, "clockwise"
+    assert {line[1:5] for line in arcs} == {"4900"}, "inside"
+    jumps = [line for line in text.splitlines() if re.match(r"B[24]0000B0B", line)]
+    assert [line[-2:] for line in jumps] == ["L1", "L3"], "from 2 to 3, and back to 1"
 
 
 def test_a_program_is_made_of_it_that_is_proved(served: OpenedPage, dxf: bytes) -> None:
