@@ -66,10 +66,12 @@ def arrow_head(tip: Floats, direction: Floats, size: float) -> Floats:
 def dashes_along(points: Floats, dash: float, gap: float) -> Iterator[Floats]:
     """Dashes (k, 2) along a curve of `points`, (n, 2), whatever its chords; none where it has no length."""
     before = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
-    for start in np.arange(0.0, before[-1], dash + gap).tolist():
-        end = min(start + dash, float(before[-1]))
-        at = np.concatenate([[start], before[(before > start) & (before < end)], [end]])
-        yield np.stack([np.interp(at, before, points[:, axis]) for axis in (0, 1)], axis=1)
+    start = np.arange(0.0, before[-1], dash + gap)
+    end = np.minimum(start + dash, before[-1])
+    ends = np.stack([[np.interp(at, before, axis) for axis in points.T] for at in (start, end)]).transpose(2, 0, 1)
+    first, past = before.searchsorted(start, side="right"), before.searchsorted(end)
+    for (begin, finish), low, high in zip(ends, first.tolist(), past.tolist(), strict=True):
+        yield np.concatenate([begin[None], points[low:high], finish[None]])
 
 
 def dashes(points: Floats, dash: float, gap: float) -> Floats:

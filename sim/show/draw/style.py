@@ -258,6 +258,10 @@ TONES: Final = (Paint.KERF, Paint.TRIM_1, Paint.TRIM_2, Paint.TRIM_3, Paint.TRIM
 """A rough cut and four trims; the passes after them have the last tone too."""
 
 
+PASS_DASHES: Final = (None, (16.0, 5.0), (8.0, 5.0), (4.0, 4.0), (1.5, 4.0))
+"""Dashes and gaps of the lines of the same passes, so that they are told apart without colours; none of rough cuts."""
+
+
 class Tone(NamedTuple):
     """A tone, and the passes that have it."""
 

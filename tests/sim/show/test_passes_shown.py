@@ -19,6 +19,8 @@ from sim.run.report import build_report
 from sim.show.draw.sheet import pixels
 from sim.show.draw.style import (
     LIGHT,
+    PASS_DASHES,
+    TONES,
     Paint,
     paint_of_pass,
     tones_of,
@@ -69,6 +71,29 @@ def test_the_table_of_passes_says_what_each_is() -> None:
 def test_the_page_has_the_table_where_there_are_trims(recording: object, has_table: bool) -> None:
     run = recording().run  # type: ignore[operator]
     assert ('data-table="passes"' in report_page(run, build_report(run), [])) is has_table
+
+
+@pytest.mark.parametrize("paint", [Paint.IDEAL, Paint.ACTUAL])
+def test_the_lines_of_passes_differ_without_colours(paint: Paint) -> None:
+    """A rough cut is one line from end to end, each trim has dashes of its own; of one pass nothing is dashed."""
+    trimmed, plain = trimmed_run(), untrimmed_run()
+    drawn = draw_cut_of_run(recording_sheet(), trimmed.run, trimmed.pieces)
+    lengths = [line_length(each.at) for each in drawn.of("polyline", paint)]
+    unit = recording_sheet().unit
+    for dash in (each[0] * unit for each in PASS_DASHES[1:2] if each):
+        assert sum(length == pytest.approx(dash, abs=1e-6) for length in lengths) > 10
+    assert max(lengths) > 10.0 * PASS_DASHES[1][0] * unit  # type: ignore[index]  # it has dashes
+    solid = draw_cut_of_run(recording_sheet(), plain.run, plain.pieces)
+    assert len(solid.of("polyline", paint)) < 20
+
+
+def line_length(points: np.ndarray) -> float:
+    return float(np.hypot(*np.diff(points, axis=0).T).sum())
+
+
+def test_each_tone_has_other_dashes() -> None:
+    assert len(set(PASS_DASHES)) == len(PASS_DASHES) == len(TONES)
+    assert PASS_DASHES[0] is None
 
 
 def legend_of(recording: Recording) -> list[str]:

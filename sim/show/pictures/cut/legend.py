@@ -24,8 +24,8 @@ from sim.show.draw.legend import (
     rows_in_columns,
     stroke,
 )
-from sim.show.draw.style import Paint, paint_of_pass, tones_of
-from sim.show.pictures.cut.lines import off_entries
+from sim.show.draw.style import TONES, Paint, paint_of_pass, tones_of
+from sim.show.pictures.cut.lines import Line, draw_line, off_entries
 from sim.show.pictures.cut.marks import (
     draw_end,
     draw_flag,
@@ -154,8 +154,18 @@ def _pass_entries(cut: Cut, say: Words, kerf_px: float) -> list[Entry]:
         ]
         by = dict.fromkeys(f"{offset:.3f}" for offset in (min(offsets), max(offsets)))
         text = say("cut.pass", name=tone.name, by="–".join(by))
-        entries.append(Entry(_kerf(kerf_px, tone.paint), text))
+        entries.append(Entry(_pass(kerf_px, TONES.index(tone.paint) + 1), text))
     return entries
+
+
+def _pass(kerf_px: float, tone: int) -> DrawSample:
+    """The kerf of a pass, and the line of its way."""
+
+    def draw(canvas: Canvas, box: Box, unit: float) -> None:
+        _kerf(kerf_px, TONES[tone - 1])(canvas, box, unit)
+        draw_line(canvas, Line(across(box), tone), Paint.IDEAL, style.IDEAL_WIDTH, unit)
+
+    return draw
 
 
 def _kerf(kerf_px: float, paint: Paint) -> DrawSample:

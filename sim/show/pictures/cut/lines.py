@@ -4,7 +4,7 @@ Where a cut is off its drawing: strips between the edge and the drawing, filled 
 would be too thin to be seen is drawn so many times as wide, and its legend says how many.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 import numpy as np
@@ -12,7 +12,7 @@ import numpy as np
 from parser.geometry.curves import Bools, Floats, Ints
 from parser.toolpath import Toolpath
 from sim.show.draw import style
-from sim.show.draw.canvas import Canvas
+from sim.show.draw.canvas import Canvas, dashes_along
 from sim.show.draw.flatten import CHORD_PX, bounds_um, cut_runs, flatten, simplify
 from sim.show.draw.layout import Page, View, nice_below
 from sim.show.draw.legend import Entry, stroke
@@ -33,14 +33,21 @@ class Band(NamedTuple):
     paint: Paint
 
 
+class Line(NamedTuple):
+    """A stretch (k, 2) px of the path or of the wire's way, and the number of the tone of its pass; 1 for leads."""
+
+    way: Floats
+    tone: int
+
+
 class Lines(NamedTuple):
     """Lines on the page, px: stretches (k, 2) and jumps, each (2, 2).
 
     Without a trace `actual` is empty and the kerf follows the path. Of its bands the later lie on top.
     """
 
-    ideal: list[Floats]
-    actual: list[Floats]
+    ideal: list[Line]
+    actual: list[Line]
     contour: list[Floats]
     jumps: list[Floats]
     kerf: list[Band]
@@ -66,10 +73,11 @@ def lines_of(cut: Cut, view: View) -> Lines:
     """The lines of a cut in a view."""
     toolpath, trace = cut.toolpath, cut.trace
     jumps = np.stack([toolpath.start_um, toolpath.end_um], axis=1)[toolpath.is_jump]
-    ideal = _path_px(toolpath, view)
+    tone = _tones(cut)
+    tone[tone == _LEAD] = 1
     return Lines(
-        ideal=ideal,
-        actual=[] if trace is None else _runs_px(trace.wire_um, trace.row, toolpath.is_jump, view),
+        ideal=_lines_px(*flatten(toolpath, CHORD_PX / view.px_per_um), tone, view),
+        actual=[] if trace is None else _lines_px(trace.wire_um, trace.row, tone, view),
         contour=[] if cut.contour is None else _path_px(cut.contour, view),
         jumps=list(view.to_px(jumps)),
         kerf=_bands(cut, view),
@@ -111,6 +119,12 @@ def _tones(cut: Cut) -> Ints:
     return np.where(cut.toolpath.is_jump, 0, numbers)
 
 
+def _lines_px(points_um: Floats, row: Ints, tone: Ints, view: View) -> list[Line]:
+    """Lines of each tone, those of the rough cuts first; on jumps the tone is 0."""
+    tones = sorted(set(tone.tolist()) - {0})
+    return [Line(run, each) for each in tones for run in _runs_px(points_um, row, tone != each, view)]
+
+
 def _path_px(toolpath: Toolpath, view: View) -> list[Floats]:
     return _runs_px(*flatten(toolpath, CHORD_PX / view.px_per_um), toolpath.is_jump, view)
 
@@ -127,16 +141,28 @@ def draw_kerf(canvas: Canvas, lines: Lines, kerf_px: float) -> None:
 
 def draw_lines(canvas: Canvas, unit: float, lines: Lines) -> None:
     """Draw all lines but the kerf."""
-    strokes = (
-        (lines.contour, Paint.CONTOUR, style.CONTOUR_WIDTH * unit),
-        (lines.actual, Paint.ACTUAL, style.ACTUAL_WIDTH * unit),
-        (lines.ideal, Paint.IDEAL, style.IDEAL_WIDTH * unit),
-    )
-    for runs, paint, width in strokes:
-        for run in runs:
-            canvas.polyline(run, paint, width)
+    for run in lines.contour:
+        canvas.polyline(run, Paint.CONTOUR, style.CONTOUR_WIDTH * unit)
+    for line in lines.actual:
+        draw_line(canvas, line, Paint.ACTUAL, style.ACTUAL_WIDTH, unit)
+    for line in lines.ideal:
+        draw_line(canvas, line, Paint.IDEAL, style.IDEAL_WIDTH, unit)
     for jump in lines.jumps:
         canvas.dashed(jump, Paint.JUMP, style.JUMP_WIDTH * unit, style.DASH * unit, style.DASH_GAP * unit)
+
+
+def draw_line(canvas: Canvas, line: Line, paint: Paint, width: float, unit: float) -> None:
+    """Draw a line of a width in units, by the dashes of its pass.
+
+    Steps of a way that are narrower than the line would put its dashes out of step with those of the path.
+    """
+    dash = style.PASS_DASHES[line.tone - 1]
+    if dash is None:
+        runs: Iterable[Floats] = [line.way]
+    else:
+        runs = dashes_along(simplify(line.way, 0.5 * width * unit), dash[0] * unit, dash[1] * unit)
+    for run in runs:
+        canvas.polyline(run, paint, width * unit)
 
 
 _SEEN: Final = 7.0

@@ -234,7 +234,8 @@ def kerf_px(cut: Cut, page: Page) -> float:
 
 
 def _draw_head(canvas: Canvas, page: Page, say: Words, cut: Cut, lines: Lines) -> None:
-    width = 0.0 if cut.travel_um is None else draw_table(canvas, page, say, cut.travel_um, lines.ideal)
+    ways = [line.way for line in lines.ideal]
+    width = 0.0 if cut.travel_um is None else draw_table(canvas, page, say, cut.travel_um, ways)
     draw_header(canvas, page.unit, cut.title, cut.note, beside_px=width)
 
 
@@ -255,7 +256,8 @@ def _draw_below(canvas: Canvas, page: Page, cut: Cut, areas: "Areas | None") -> 
 
 
 def _room(page: Page, lines: Lines, sized: list[Floats], taken: list[Box]) -> Room:
-    ink = Ink([*lines.ideal, *lines.contour, *lines.jumps, *sized], page.width_px, page.height_px)
+    ways = [line.way for line in lines.ideal]
+    ink = Ink([*ways, *lines.contour, *lines.jumps, *sized], page.width_px, page.height_px)
     return Room(page.plot, ink, taken)
 
 
