@@ -9,6 +9,8 @@ import pytest
 from axe import needs_axe, violations
 from browser import Browsers
 from drawings_dxf import drawn
+from ezdxf.layouts import Modelspace
+from golden_pictures import assert_golden_screen
 from open_tab import Tab, tab
 from opened_page import OpenedPage, opened_page
 from page_checks import complaints
@@ -265,3 +267,43 @@ def test_the_keyboard_alone_plays_and_changes_tabs(browsers: Browsers, square: O
         shown.page.focus("#tab-findings")
         shown.page.keyboard.press("ArrowRight")
         assert shown.page.locator("#panel-drawing").is_visible()
+
+
+def test_the_workbench_in_chinese_is_the_golden_one(browsers: Browsers) -> None:
+    with opened_page(KEYHOLE) as served, tab(browsers, served.address, lang="zh", golden="light") as shown:
+        shown.waits_for("pass")
+        shown.page.focus("#picture")
+        shown.page.keyboard.press("ArrowDown")
+        reads(shown, "cut", "24.900 /")
+        assert_golden_screen(shown.page, "workbench-zh.png")
+
+
+def test_the_plan_of_a_drawing_in_chinese_is_the_golden_one(
+    browsers: Browsers, empty: OpenedPage, tmp_path: Path
+) -> None:
+    with tab(browsers, empty.address, lang="zh", golden="dark") as shown:
+        shown.page.set_input_files("#pick", drawn(tmp_path, plate))
+        shown.page.locator("#drawing-told li").wait_for()
+        shown.page.locator("#drawing-told li", has_text="227.642 mm").wait_for()
+        shown.page.fill("#order", "2")
+        with shown.page.expect_response("**/plan"):
+            shown.page.fill("#passes", "0.12 0.1")
+        shown.page.locator("#drawing-told li", has_text="454.874 mm").wait_for()
+        shown.page.evaluate("() => new Promise(drawn => requestAnimationFrame(() => requestAnimationFrame(drawn)))")
+        assert_golden_screen(shown.page, "workbench-plan-dark-zh.png")
+
+
+@needs_axe
+def test_axe_has_nothing_against_a_plan(browsers: Browsers, empty: OpenedPage, tmp_path: Path) -> None:
+    with tab(browsers, empty.address) as shown:
+        shown.page.set_input_files("#pick", drawn(tmp_path, plate))
+        shown.page.locator("#drawing-told li", has_text="Plan").wait_for()
+        assert violations(shown.page) == []
+
+
+def plate(space: Modelspace) -> None:
+    """A plate with a slot and two holes."""
+    space.add_lwpolyline([(0, 0), (40, 0), (40, 20), (0, 20)], close=True)
+    space.add_lwpolyline([(12, 6), (28, 6), (28, 14), (12, 14)], close=True)
+    for x in (6, 34):
+        space.add_circle((x, 10), 3)

@@ -45,10 +45,15 @@ class Tab:
 
 
 @contextmanager
-def tab(browsers: Browsers, address: str, width: int = 1280, lang: str = "en") -> Iterator[Tab]:
-    """A page in a browser that asks nothing but its server; complaints fail the test."""
-    contexts = browsers.of(False)
-    settings = {"locale": LOCALES[lang], "accept_downloads": True}
+def tab(
+    browsers: Browsers, address: str, width: int = 1280, lang: str = "en", *, golden: str | None = None
+) -> Iterator[Tab]:
+    """A page in a browser that asks nothing but its server; complaints fail the test.
+
+    For a `golden` picture it is in the shipped font, and in that colour scheme.
+    """
+    contexts = browsers.of(golden is not None)
+    settings = {"locale": LOCALES[lang], "accept_downloads": True, "color_scheme": golden or "light"}
     lent = contexts.lend(settings, width, 800, "http://" + urlsplit(address).netloc)
     with ExitStack() as closing:
         closing.callback(lent.context.close)

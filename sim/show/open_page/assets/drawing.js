@@ -66,12 +66,21 @@ export function wireDrawing(around) {
   /** @type {PlannedFigure[]} of the last plan that there was */
   let figures = [];
   let isPlanning = false;
-  const plan = wirePlan(() => (number && isPlanning ? { ...wishes(), placement: JSON.stringify(placement) } : null), (found) => {
+  const plan = wirePlan(toPlan, (found) => {
+    const isFirst = !figures.length;
     planned = found;
     if (found?.figures) figures = found.figures;
     around.planned(found);
     show();
+    if (isFirst && figures.length && order.value) plan(); // now it is known which figures are behind those that are named
   });
+
+  /** What is asked of the plan that is to be shown; null where none is. */
+  function toPlan() {
+    if (!number || !isPlanning) return null;
+    const laid = { ...wishes(), placement: JSON.stringify(placement) };
+    return figures.length ? laid : { ...laid, order: "" };
+  }
 
   /** Show which drawing there is, and what was told of it. */
   function show() {
