@@ -56,12 +56,17 @@ def _programs(file: Path | None, *, from_icon: bool) -> "Programs":
     from parser.files import read_bytes
     from parser.findings.errors import FileUnreadableError
     from sim.serve.page.programs import Opened, Programs
+    from sim.serve.page.recent import recent, remember
 
     if file is None:
-        return Programs(Opened())
+        return Programs(Opened(recent=recent()))
     try:
-        return Programs(Opened(folder=file) if file.is_dir() else Opened(file, read_bytes(file)))
+        if file.is_dir():
+            return Programs(Opened(folder=file))
+        opened = Opened(file, read_bytes(file))
+        remember(file)
+        return Programs(opened)
     except FileUnreadableError as error:
         if not from_icon:
             raise
-        return Programs(Opened(why=error.in_both()))
+        return Programs(Opened(why=error.in_both(), recent=recent()))

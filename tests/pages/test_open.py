@@ -634,3 +634,17 @@ def test_a_drawing_is_dropped_made_a_program_and_run_against(
         shown.page.click("#tab-drawing")
         shown.page.click("#away")
         assert shown.page.locator("#drawing").is_hidden()
+
+
+def test_what_was_opened_before_is_opened_by_one_click(browsers: Browsers, tmp_path: Path) -> None:
+    file = tmp_path / "凸模.3b"
+    file.write_text(PUNCH, "ascii")
+    with opened_page(file, state=tmp_path / "state"):
+        pass
+    with opened_page(state=tmp_path / "state") as served, tab(browsers, served.address) as shown:
+        button = shown.page.locator("#recent button")
+        assert (button.inner_text(), button.get_attribute("title")) == ("凸模.3b", str(tmp_path))
+        button.click()
+        shown.waits_for("pass")
+        assert shown.text() == PUNCH
+        assert not shown.page.locator("#begin").is_visible()

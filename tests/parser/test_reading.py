@@ -36,6 +36,7 @@ OWN = {
     *("sim/base/files/swap.py", "sim/base/files/stages.py", "sim/base/files/steps.py", "sim/run/recording.py"),
     *("sim/jobs/batch.py", "sim/jobs/batch.py", "sim/jobs/trace_file.py"),
     "controller/compiled/entries.py",  # machine code, sealed
+    "sim/serve/page/recent.py",  # a list of our own
     "sim/show/terminal/streams.py",  # reopens closed streams on nothing
     *("sim/cli/lsp.py", "sim/serve/page/child.py"),  # hand a protocol, or a process of ours, its streams
     *(

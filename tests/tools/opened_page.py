@@ -68,11 +68,16 @@ class Recorder:
 
 
 @contextmanager
-def opened_page(file: Path | None = None, *options: str, browser: str = "") -> Iterator[OpenedPage]:
-    """The server of a file, which opens a browser where one is given; it is ended behind the block."""
+def opened_page(
+    file: Path | None = None, *options: str, browser: str = "", state: Path | None = None
+) -> Iterator[OpenedPage]:
+    """The server of a file, which opens a browser where one is given; it is ended behind the block.
+
+    What it is to remember stands in the folder `state`; nowhere without one.
+    """
     shown = () if browser else ("--no-browser",)
     command = [sys.executable, "-m", "drycut", "open", *([str(file)] if file else []), *shown, *options]
-    environment = {**os.environ, "BROWSER": browser}
+    environment = {**os.environ, "BROWSER": browser, "XDG_STATE_HOME": str(state or os.devnull)}
     process = subprocess.Popen(
         command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=ROOT, env=environment
     )

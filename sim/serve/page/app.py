@@ -119,9 +119,14 @@ class _Files:
         self._warming = self._warming or asyncio.create_task(self._warm())
         opened = self._programs.opened
         read = self._answer(opened.name, opened.data, "0" if opened.file else "")
-        if opened.why is None:
-            return JSONResponse(read)
-        return JSONResponse({**read, "why": printable_entry(opened.why)})
+        if opened.why is not None:
+            read["why"] = printable_entry(opened.why)
+        if opened.recent:
+            read["recent"] = [
+                {"name": printable(file.name), "folder": printable(str(file.parent)), "number": str(number)}
+                for number, file in enumerate(opened.recent)
+            ]
+        return JSONResponse(read)
 
     async def _warm(self) -> None:
         await asyncio.sleep(_AFTER_FIRST_S)
@@ -135,7 +140,7 @@ class _Files:
         except FileUnreadableError:
             return Response(status_code=MISSING)
         file = self._programs.file(number)
-        return JSONResponse(_read(file.name if file else "", data, number))
+        return JSONResponse(self._answer(file.name if file else "", data, number))
 
     async def example(self, request: Request) -> Response:
         """A file to begin with."""

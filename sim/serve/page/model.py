@@ -15,6 +15,14 @@ Box = Annotated[list[float], of_length(4, 4)]
 """Left, bottom, right, top."""
 
 
+class RecentEntry(TypedDict):
+    """A file that was opened before, and the number that it has as a program."""
+
+    name: str
+    folder: str
+    number: str
+
+
 class FileTextEntry(TypedDict):
     """A file as a text with lines that end with LF, and what brings back its bytes; of a drawing its number."""
 
@@ -25,6 +33,7 @@ class FileTextEntry(TypedDict):
     number: Annotated[str, "of the program whose file it is; empty where it came to the page"]
     drawing: NotRequired[str]
     why: NotRequired[Annotated[SaidEntry, "what was to be open at the start could not be"]]
+    recent: NotRequired[Annotated[list[RecentEntry], "where nothing is open at the start"]]
 
 
 class PlacementEntry(TypedDict):

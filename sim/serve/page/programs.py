@@ -91,12 +91,16 @@ _AT_ONCE: Final = 500
 
 
 class Opened(NamedTuple):
-    """What is open at the start: a program with its file, a folder, or nothing; `why` says why that is so."""
+    """What is open at the start: a program with its file, a folder, or nothing; `why` says why that is so.
+
+    Where nothing is open, `recent` files are offered.
+    """
 
     file: Path | None = None
     data: bytes = b""
     folder: Path | None = None
     why: Bilingual | None = None
+    recent: tuple[Path, ...] = ()
 
     @property
     def name(self) -> str:
@@ -118,7 +122,7 @@ class Programs:
     def __init__(self, opened: Opened) -> None:
         self.opened = opened
         self._folder = opened.folder
-        self._files: list[Path] = [opened.file] if opened.file else []
+        self._files: list[Path] = [opened.file] if opened.file else list(opened.recent)
         self._first = self._left_out = 0
         self._rows: list[RowEntry] = []
         self._turn = asyncio.Lock()  # two tabs may ask at the same moment

@@ -124,6 +124,15 @@
  * @property {string} number of the program whose file it is; empty where it came to the page
  * @property {string} [drawing]
  * @property {Said} [why] what was to be open at the start could not be
+ * @property {Recent[]} [recent] where nothing is open at the start
+ */
+
+/**
+ * A file that was opened before, and the number that it has as a program.
+ * @typedef {object} Recent
+ * @property {string} name
+ * @property {string} folder
+ * @property {string} number
  */
 
 /**

@@ -1,8 +1,8 @@
 // Files that come to the page and go from it: dropped, picked, of the folder, or an example; saved as they came.
 import * as asked from "./asked.js";
-import { element, elements } from "../../html/assets/elements.js";
+import { element, elements, make } from "../../html/assets/elements.js";
 
-/** @import { FileText } from "./data.js" */
+/** @import { FileText, Recent } from "./data.js" */
 
 const ALIVE_MS = 20_000;
 
@@ -92,6 +92,19 @@ export function wireFiles({ begin, draw, list, unlist, current, onSaved, tell })
   return {
     open,
     take,
+    /**
+     * Offer files that were opened before.
+     * @param {Recent[]} recent
+     */
+    recent(recent) {
+      const offered = element("#recent", HTMLElement);
+      offered.hidden = !recent.length;
+      element(".choices", HTMLElement, offered).replaceChildren(...recent.map(({ name, folder, number }) => {
+        const button = make("button", { type: "button", title: folder }, name);
+        button.addEventListener("click", () => open(number));
+        return button;
+      }));
+    },
     /**
      * Offer a file or an example to begin with, over the empty picture.
      * @param {boolean} isShown

@@ -276,6 +276,7 @@ function nameOf() {
  * @param {FileText} read
  */
 function start(read) {
+  files.recent(read.recent ?? []);
   if (!read.drawing && (read.text !== "" || !text.value)) begin(read);
   else title.textContent = language.say("untitled");
   if (read.drawing) files.take(read);
