@@ -97,6 +97,8 @@ class Making(NamedTuple):
         Numbers of figures in the order in which they are cut; by nesting and the shortest way where empty.
     starts_um
         Thread points, each for the figure whose waste it lies in.
+    entries_um
+        Where the wire comes to contours, each for the one that lies nearest; where it suits, for all others.
     thread_layer
         Layer whose points and circles are thread points.
     lead
@@ -132,6 +134,7 @@ class Making(NamedTuple):
     direction: DirectionWish = "one-side"
     order: tuple[int, ...] = ()
     starts_um: tuple[Point, ...] = ()
+    entries_um: tuple[Point, ...] = ()
     thread_layer: str | None = None
     lead: LeadIn = "perpendicular"
     lead_um: float | None = None
@@ -227,6 +230,7 @@ PROGRAM = Section(
         Key("direction", OneOf(DIRECTION_WISHES), "making.direction", default=_USUAL.direction, option="--direction"),
         Key("order", Wholes(FIGURE), "making.order", default=(), option="--order"),
         Key("starts_mm", Places(PLACE_MM), "making.starts_um", default=(), option="--start"),
+        Key("entries_mm", Places(PLACE_MM), "making.entries_um", default=(), option="--enter"),
         Key("thread_layer", Text(), "making.thread_layer", default=None, option="--thread-layer"),
         Key("lead", OneOf(LEAD_INS), "making.lead", default=_USUAL.lead, option="--lead"),
         Key("lead_mm", Number(LEAD_MM, "mm", MM_AS_UM), "making.lead_um", default=None, option="--lead-length"),

@@ -489,7 +489,7 @@ def test_the_plan_is_drawn_at_once_and_follows_each_change(
         page.fill("#order", "3")
         planned(page)
         page.select_option("#click-does", "starts")
-        with page.expect_response("**/plan") as answered:
+        with page.expect_response(lambda answer: '"starts":""' not in (answer.request.post_data or "")) as answered:
             page.mouse.click(*at(20, -5))
         path = answered.value.json()["path"]
         assert min(path["place_y_um"]) == pytest.approx(-5000.0, abs=200.0), "the wire is threaded there"
@@ -498,10 +498,18 @@ def test_the_plan_is_drawn_at_once_and_follows_each_change(
         seen = set()
         for y in (-4.5, -4.0, -3.5, -3.0):  # the plan is drawn while the mark is dragged
             with page.expect_response("**/plan") as answered:
-                page.mouse.move(*at(20, y))
+                page.mouse.move(*at(20, y), steps=2)
             seen.add(round(min(answered.value.json()["path"]["place_y_um"]), -2))
         page.mouse.up()
         assert len(seen) > 1
+        page.fill("#starts", "")
+        page.select_option("#click-does", "entries")
+        with page.expect_response(lambda answer: '"entries":""' not in (answer.request.post_data or "")) as answered:
+            page.mouse.click(*at(40, 8))
+        path = answered.value.json()["path"]
+        edge = [y for x, y in zip(path["place_x_um"], path["place_y_um"], strict=True) if abs(x - 40_100.0) < 1.0]
+        assert min(abs(y - 8000.0) for y in edge) < 200.0, "the cut starts there"
+        page.fill("#entries", "")
         page.select_option("#wire-side", "outside")
         page.click("#make")
         shown.waits_for("fail")  # all outside: the holes are cut too large

@@ -168,6 +168,16 @@ def _chosen(room: Room, side: Floats, found: Entries, wanted: Wanted, kept_um: F
     }
 
 
+def out_from(
+    room: Room, side: Floats, found: tuple[Entries, Entries], wanted: Wanted, kept_um: Floats
+) -> dict[int, Thread]:
+    """A thread point for each figure that has room for it out from its corner, or else from its other entry."""
+    at_corners, entries = found
+    threads = _out_from_corners(room, at_corners, wanted, kept_um)
+    left = entries.take(np.flatnonzero(~np.isin(room.figure[entries.row], list(threads))))
+    return threads | _chosen(room, side, left, wanted, kept_um)
+
+
 def before_corners(
     room: Room, side: Floats, threads: Mapping[int, Thread], wanted: Wanted, kept_um: Floats
 ) -> dict[int, Thread]:
@@ -180,7 +190,15 @@ def before_corners(
     places = np.array([thread.place_um for thread in threads.values()])
     found, whose = corners(room, side, EntryRequest(np.array(list(threads)), places, wanted.reach_um))
     best = np.flatnonzero(np.arange(len(whose)) - np.searchsorted(whose, whose) < MOST)
-    found, moved = found.take(best), dict[int, Thread]()
+    moved = _out_from_corners(room, found.take(best), wanted, kept_um)
+    staying_um = np.array([thread.place_um for at, thread in threads.items() if at not in moved]).reshape(-1, 2)
+    near = set(crowded(moved, np.concatenate([kept_um, staying_um])))
+    return {at: each for at, each in moved.items() if at not in near}
+
+
+def _out_from_corners(room: Room, found: Entries, wanted: Wanted, kept_um: Floats) -> dict[int, Thread]:
+    """A thread point midway out from the first of its corners that has room before it, for each figure."""
+    moved = dict[int, Thread]()
     for share in _SHORTER:
         place = np.round(found.begin_um + share * wanted.most_um * found.out) + 0.0
         is_free = are_free(room, lines_between(place, found.begin_um), wanted.reach_um)
@@ -188,9 +206,7 @@ def before_corners(
         for at in np.flatnonzero(is_free & is_clear & are_apart(place, kept_um)).tolist():
             x, y = place[at].tolist()
             moved.setdefault(int(room.figure[found.row[at]]), Thread(Point(x, y), "chosen", found.entry(room, at)))
-    staying_um = np.array([thread.place_um for at, thread in threads.items() if at not in moved]).reshape(-1, 2)
-    near = set(crowded(moved, np.concatenate([kept_um, staying_um])))
-    return {at: each for at, each in moved.items() if at not in near}
+    return moved
 
 
 def begun_on(room: Room, side: Floats, wanted: Ints) -> dict[int, Thread]:

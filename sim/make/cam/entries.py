@@ -160,6 +160,30 @@ def corners(room: Room, side: Floats, request: EntryRequest) -> tuple[Entries, I
     return found, whose[corner]
 
 
+def entries_at(room: Room, side: Floats, request: EntryRequest) -> Entries:
+    """The places of contours that are nearest to those of a request, one each, in whole µm along lines."""
+    row, whose = room.rows(request.figure)
+    place = request.place_um[whose]
+    foot = feet(room.curves, row, place).place_um
+    order = np.lexsort([np.hypot(*(foot - place).T), whose])
+    best = order[np.diff(whose[order], prepend=-1) > 0]
+    row = row[best]
+    along = _to_whole(room, row, along_um(room.curves, row, foot[best]))
+    out = _out(room, side, row, headings_along(room.curves, row, along))
+    return Entries(row, along, places_at(room.curves, row, along), out, np.full(len(row), request.reach_um))
+
+
+def corners_at(room: Room, side: Floats, request: EntryRequest) -> Entries:
+    """The corner that is nearest to each place of a request, of those no farther than the reach.
+
+    Beside a corner that the waste lies in, the wire would touch its other side.
+    """
+    found, whose = corners(room, side, request)
+    first = np.flatnonzero(np.diff(whose, prepend=-1) > 0)
+    off = np.hypot(*(found.place_um[first] - request.place_um[whose[first]]).T)
+    return found.take(first[off <= request.reach_um])
+
+
 def nearest_of(room: Room, side: Floats, at: int, place_um: Floats) -> Entry:
     """The entry of one figure at its place nearest to another one (2,)."""
     row, _ = room.rows(np.array([at]))

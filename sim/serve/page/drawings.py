@@ -38,6 +38,7 @@ MAKE_KEYS: Final = (
     "common_edges",
     "picks",
     "starts",
+    "entries",
     "order",
     "wire_side",
     "direction",

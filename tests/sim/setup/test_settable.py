@@ -121,6 +121,7 @@ TYPED: dict[str, tuple[list[str], str]] = {
     "direction": (["cw"], "'cw'"),
     "order": (["3,1,2"], "[3, 1, 2]"),
     "starts_mm": (["1,2", "3mm,-4mm"], "[[1.0, 2.0], [3.0, -4.0]]"),
+    "entries_mm": (["1,2", "3mm,-4mm"], "[[1.0, 2.0], [3.0, -4.0]]"),
     "thread_layer": (["HOLES"], "'HOLES'"),
     "lead": (["arc"], "'arc'"),
     "lead_mm": (["2mm"], "2.0"),

@@ -6,7 +6,7 @@ import { IN_PLACE, lifted, moved, numberAt, placesIn, toggled } from "./picks.js
 import { completed, reordered, wirePlan } from "./plan.js";
 
 /** @import { Said } from "../../html/assets/language.js" */
-/** @import { Curves } from "../../replay/assets/document.js" */
+/** @import { Curves, Place } from "../../replay/assets/document.js" */
 /** @import { Drafted, FileText, Planned, PlannedFigure, RunState } from "./data.js" */
 
 /**
@@ -17,8 +17,8 @@ import { completed, reordered, wirePlan } from "./plan.js";
  * @property {(coming: Promise<RunState>) => void} follow shows how far a job is
  * @property {(read: FileText) => void} begin opens a program
  * @property {(curves: Curves | null) => void} beneath draws it under the path
- * @property {(picks: [x: number, y: number][], starts: [x: number, y: number][]) => void} picked marks what is picked, and
- *   thread points
+ * @property {(picks: Place[], starts: Place[], entries: Place[]) => void} picked marks what is picked, thread points, and
+ *   where cuts start
  * @property {(plan: Planned | null) => void} planned draws a plan over it
  * @property {(place: [x: number, y: number], nearUm: number) => PlannedFigure | null} figureAt the figure of the plan at a
  *   place
@@ -41,6 +41,7 @@ export function wireDrawing(around) {
   const common = element("#common-edges", HTMLInputElement);
   const picks = element("#picks", HTMLInputElement);
   const starts = element("#starts", HTMLInputElement);
+  const entries = element("#entries", HTMLInputElement);
   const order = element("#order", HTMLInputElement);
   const side = element("#wire-side", HTMLSelectElement);
   const direction = element("#direction", HTMLSelectElement);
@@ -86,8 +87,8 @@ export function wireDrawing(around) {
   function show() {
     name.textContent = number ? file : language.say("no-drawing");
     buttons.hidden = element("#drawn", HTMLElement).hidden = element("#picks-hint", HTMLElement).hidden = !number;
-    const [picked, threaded] = [picks, starts].map((field) => (number ? placesIn(field.value, placement) : []));
-    around.picked(picked, threaded);
+    const [picked, threaded, entered] = [picks, starts, entries].map((field) => (number ? placesIn(field.value, placement) : []));
+    around.picked(picked, threaded, entered);
     if (!made.length) list.className = "";
     const ofPlan = planned?.told ?? (planned?.why ? [planned.why] : []);
     const lines = made.length ? made : [...seen, ...ofPlan];
@@ -109,7 +110,7 @@ export function wireDrawing(around) {
 
   /** What is asked of a program. */
   function wishes() {
-    const texts = { language: written, offset_mm: passes, tab_mm: tab, led_um: lag, picks, starts, wire_side: side, direction };
+    const texts = { language: written, offset_mm: passes, tab_mm: tab, led_um: lag, picks, starts, entries, wire_side: side, direction };
     const own = Object.fromEntries(Object.entries(texts).map(([key, field]) => [key, field.value.trim()]));
     const [no_core, common_edges] = [noCore, common].map((box) => (box.checked ? "yes" : ""));
     return { ...around.values(), drawing: number, ...own, no_core, common_edges, order: completed(order.value, figures), ...reading() };
@@ -117,7 +118,7 @@ export function wireDrawing(around) {
 
   /** Take the drawing away. */
   function away() {
-    number = picks.value = starts.value = order.value = "";
+    number = picks.value = starts.value = entries.value = order.value = "";
     made = seen = [];
     around.beneath(null);
     plan();
@@ -158,13 +159,13 @@ export function wireDrawing(around) {
   });
   for (const field of [join, unit]) field.addEventListener("change", look);
   picks.addEventListener("input", () => { order.value = ""; }); // figures have other numbers then
-  for (const field of [picks, starts, order, passes, tab, lag, noCore, common, side, direction]) field.addEventListener("input", changed);
+  for (const field of [picks, starts, entries, order, passes, tab, lag, noCore, common, side, direction]) field.addEventListener("input", changed);
   language.onChange(show);
 
   return {
     /**
-     * Pick what lies at a place of the picture, µm, set a thread point there, or put its figure in the order, as a click is
-     * to; or take that back. Whether there is a drawing to be clicked on.
+     * Pick what lies at a place of the picture, µm, set a thread point or the start of a cut there, or put its figure in
+     * the order, as a click is to; or take that back. Whether there is a drawing to be clicked on.
      * @param {[x: number, y: number]} place
      * @param {number} nearUm
      */
@@ -174,7 +175,7 @@ export function wireDrawing(around) {
         const figure = around.figureAt(place, nearUm);
         if (figure) order.value = reordered(order.value, figure.number);
       } else {
-        const field = clickDoes.value === "starts" ? starts : picks;
+        const field = { starts, entries }[clickDoes.value] ?? picks;
         field.value = toggled(field.value, lifted(placement, place), nearUm);
         if (field === picks) order.value = "";
       }
@@ -189,7 +190,7 @@ export function wireDrawing(around) {
      */
     mark(place, nearUm) {
       if (!number || element("#panel-drawing", HTMLElement).hidden) return null;
-      for (const field of [starts, picks]) {
+      for (const field of [starts, entries, picks]) {
         const of = numberAt(field.value, placement, place, nearUm);
         if (of < 0) continue;
         return (to) => {
@@ -209,7 +210,7 @@ export function wireDrawing(around) {
      */
     async take(newNumber, newFile) {
       [number, file, made, placement] = [newNumber, newFile, [], IN_PLACE];
-      picks.value = starts.value = order.value = "";
+      picks.value = starts.value = entries.value = order.value = "";
       [planned, figures, isPlanning] = [null, [], !around.current().text.trim()];
       around.planned(null);
       element("#tab-drawing", HTMLElement).click();

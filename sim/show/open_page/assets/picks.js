@@ -132,6 +132,18 @@ export function drawStarts(pen, view, places, shade) {
 }
 
 /**
+ * Draw the marks of where cuts are to start: small squares.
+ * @param {CanvasRenderingContext2D} pen
+ * @param {View} view
+ * @param {[x: number, y: number][]} places
+ * @param {string} shade
+ */
+export function drawEntries(pen, view, places, shade) {
+  pen.fillStyle = shade;
+  for (const [x, y] of places) pen.fillRect(view.toX(x) - 6, view.toY(y) - 6, 12, 12);
+}
+
+/**
  * Draw the marks of what is picked.
  * @param {CanvasRenderingContext2D} pen
  * @param {View} view

@@ -8,7 +8,7 @@ import { pathOf } from "../../replay/assets/path.js";
 import { penOf } from "../../replay/assets/pen.js";
 import { differing } from "./differing.js";
 import { wireMeasuring } from "./measuring.js";
-import { drawPicks, drawStarts } from "./picks.js";
+import { drawEntries, drawPicks, drawStarts } from "./picks.js";
 import { drawPlan, figureAt } from "./plan.js";
 import { rowAt } from "./snap.js";
 import { drawAxes, drawBand, drawPlayed } from "./under_path.js";
@@ -51,6 +51,8 @@ export function pictureOf(canvas, on) {
   let picks = [];
   /** @type {[x: number, y: number][]} */
   let starts = [];
+  /** @type {[x: number, y: number][]} */
+  let entries = [];
   let line = 0;
   let isAsked = false;
   let isFitted = false;
@@ -157,6 +159,7 @@ export function pictureOf(canvas, on) {
     if (shown?.moment.t) drawWire(pen, view, shown.moment, 0, shown.show.wireUm, colours);
     drawPicks(pen, view, picks, shades.accent);
     drawStarts(pen, view, starts, shades.accent);
+    drawEntries(pen, view, entries, shades.accent);
     if (planned) drawPlan(pen, view, planned.plan, planned.drawn, shades);
     measuring.draw(pen, shades.accent);
     drawScaleBar(pen, view, colours);
@@ -317,12 +320,13 @@ export function pictureOf(canvas, on) {
       later();
     },
     /**
-     * Mark what is picked of the drawing, and where the wire is to be threaded.
+     * Mark what is picked of the drawing, where the wire is to be threaded, and where cuts are to start.
      * @param {[x: number, y: number][]} newPicks
      * @param {[x: number, y: number][]} newStarts
+     * @param {[x: number, y: number][]} newEntries
      */
-    pick(newPicks, newStarts) {
-      [picks, starts] = [newPicks, newStarts];
+    pick(newPicks, newStarts, newEntries) {
+      [picks, starts, entries] = [newPicks, newStarts, newEntries];
       later();
     },
     /**

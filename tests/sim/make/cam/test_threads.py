@@ -170,6 +170,39 @@ def test_any_thread_point_asked_for_gets_a_free_lead_or_is_refused_by_name(seed:
     assert refusal.why in {"start-nowhere", "start-too-near", "start-hidden"}
 
 
+@pytest.mark.alike(8)
+@pytest.mark.parametrize("seed", range(60))
+def test_a_cut_starts_where_that_is_asked_for_or_is_refused_by_name(seed: int) -> None:
+    """On the nearest place of the nearest contour, as shapely finds it, or its corner no farther than the reach."""
+    rng = random.Random(seed)
+    figures = plate(rng)
+    edges = [outline_of(one.contour).exterior for one in figures]
+    at = rng.randrange(len(figures))
+    on = edges[at].interpolate(rng.random(), normalized=True)
+    asked = Point(round(on.x + rng.uniform(-50.0, 50.0)), round(on.y + rng.uniform(-50.0, 50.0)))
+    nearest = min(range(len(edges)), key=lambda one: edges[one].distance(shapely.Point(asked)))
+    making = Making(entries_um=(asked,), lead_um=rng.choice([None, 400.0]))
+    refusal = refusal_of(figures, making)
+    if refusal is not None:
+        assert (refusal.why, refusal.places_um) == ("enter-hidden", (asked,))
+        entry = edges[nearest].interpolate(edges[nearest].project(shapely.Point(asked)))
+        least = REACH_UM + 10.0  # a lead is that long at least, and as far from all else
+        assert waste(figures, nearest).buffer(-least, quad_segs=64).distance(entry) > least + 0.5, "there is no room"
+        return
+    found = threads_of(drawing(), figures, making, REACH_UM)
+    corner = min(math.dist(one, asked) for one in figures[nearest].contour.start_um.tolist())
+    if corner > REACH_UM:  # into a corner the pass begins farther out than by the reach
+        assert_led_in_the_waste(figures, found)
+    entry = shapely.Point(found[nearest].entry.place_um)
+    assert edges[nearest].distance(entry) < 0.2  # µm: as near as the chords of a circle lie to it
+    off = edges[nearest].project(shapely.Point(asked))
+    is_there = entry.distance(edges[nearest].interpolate(off)) < 20.0  # moved to whole µm across a lead in whole µm
+    assert is_there or corner <= REACH_UM
+    usual = threads_of(drawing(), figures, Making(lead_um=making.lead_um), REACH_UM)
+    far = [one for one in range(len(figures)) if one != nearest and usual[one] != found[one]]
+    assert all(math.dist(usual[one].place_um, found[nearest].place_um) < 2_000.0 for one in far), "others stay"
+
+
 def refusal_of(figures: list[Figure], making: Making) -> Refusal | None:
     try:
         threads_of(drawing(), figures, making, REACH_UM)
@@ -287,6 +320,30 @@ def test_from_beside_a_corner_the_wire_comes_to_the_corner() -> None:
 )
 def test_thread_points_that_cannot_be_are_refused(starts: list[tuple[float, float]], refused: str) -> None:
     assert why(Making(starts_um=tuple(Point(*one) for one in starts))) == refused
+
+
+def test_a_cut_starts_on_the_place_across_from_its_thread_point_or_led_there_from_one_that_stands() -> None:
+    outer, inner = threads(Making(entries_um=(Point(0, 15_000), Point(9990, 4000))))
+    assert (outer.entry.place_um, outer.place_um, outer.by) == (Point(0, 15_000), Point(-2000, 15_000), "chosen")
+    assert inner.entry.place_um == Point(10_000, 4000)
+    outer, _ = threads(Making(starts_um=(Point(-3000, 5000),), entries_um=(Point(0, 9000),)))
+    assert (outer.place_um, outer.entry.place_um, outer.by) == (Point(-3000, 5000), Point(0, 9000), "asked")
+    for corner in (Point(0, 0), Point(10_000, 8000)):  # one of a part, one that waste lies in
+        found = threads(Making(entries_um=(Point(corner.x + 40.0, corner.y),), lead="point"))
+        assert corner in {thread.entry.place_um for thread in found}
+    outer, _ = threads(Making(entries_um=(Point(3, 15_000),)), reach_um=0.0)
+    assert (outer.place_um, outer.by) == (Point(0, 15_000), "contour")
+
+
+@pytest.mark.parametrize(
+    ("making", "refused"),
+    [
+        (Making(entries_um=(Point(0, 5000), Point(0, 9000))), "enter-twice"),
+        (Making(starts_um=(Point(-3000, 5000),), entries_um=(Point(30_000, 9000),)), "enter-hidden"),
+    ],
+)
+def test_starts_of_cuts_that_cannot_be_are_refused(making: Making, refused: str) -> None:
+    assert why(making) == refused
 
 
 def test_a_thread_point_behind_an_island_is_led_round_it_or_refused() -> None:
