@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from difflib import SequenceMatcher
 from itertools import takewhile
 from pathlib import Path
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 from starlette.applications import Starlette
 from starlette.concurrency import run_in_threadpool
@@ -22,7 +22,7 @@ from sim.serve.page.answers import ReadFile, answer, file_of, file_text, printab
 from sim.serve.page.child import Life
 from sim.serve.page.drawings import Drawings, is_drawing
 from sim.serve.page.form import Chosen, chosen
-from sim.serve.page.model import ChangeEntry, ChangesEntry, FileTextEntry
+from sim.serve.page.model import AnswerEntry, ChangeEntry, ChangesEntry, FileTextEntry
 from sim.serve.page.programs import STARTS, Programs, row_or_why, start
 from sim.serve.page.runs import (
     MISSING,
@@ -84,14 +84,14 @@ def _place(was: Sequence[str], now: Sequence[str], row: int) -> ChangeEntry:
 
 
 def app_of(programs: Programs, drawings: Drawings, life: Life, runs: Runs) -> Starlette:
-    """The application behind the guard."""
+    """The application behind the guard; ``state.ahead`` does at the start what the page will ask for."""
     files, texts = _Files(programs, drawings, life, runs), _Checks(programs)
     running, drawn = Running(life, runs, programs, drawings), Drawn(drawings, runs)
     works: list[Work] = [files.first, files.read, files.save, files.alive, files.close]
     works += [files.program, files.example, files.rows, files.again, files.row]
     works += [drawn.look, drawn.plan, drawn.draft, drawn.drafted]
     works += [texts.check, texts.version, texts.lines, running.run, running.more, running.progress, running.cancel]
-    return Starlette(
+    app = Starlette(
         routes=[
             Route("/", files.page, methods=["GET"]),
             Route("/run/{number:int}/{name}", running.made, methods=["GET"]),
@@ -99,6 +99,8 @@ def app_of(programs: Programs, drawings: Drawings, life: Life, runs: Runs) -> St
             *(Route(f"/{name_of(work)}", guarded(work), methods=["POST"]) for work in works),
         ]
     )
+    app.state.ahead = texts.ahead
+    return app
 
 
 class _Files:
@@ -193,16 +195,44 @@ class _Files:
         return Response(status_code=NOTHING)
 
 
+class _Text(NamedTuple):
+    """A text that is to be checked: its name, where it stands, and what a run of it has."""
+
+    name: str
+    file: Path | None
+    text: str
+    for_run: Chosen
+
+
 class _Checks:
     """What is found in texts, and how they differ."""
 
     def __init__(self, programs: Programs) -> None:
         self._programs = programs
         self._checks, self._lines = _Last(), _Last()
+        self._ahead: tuple[_Text, asyncio.Task[AnswerEntry]] | None = None
+
+    async def ahead(self) -> None:
+        """Check what is open at the start, before the page asks for it: a browser takes longer to start.
+
+        Where nothing is open, that loads what the first check needs.
+        """
+        opened = self._programs.opened
+        text = _read(opened.name, opened.data)["text"] or ""
+        asked = _Text(printable(opened.name), self._programs.file("0") if text else None, text, chosen("", ""))
+        checked = asyncio.create_task(run_in_threadpool(answer, *asked))
+        self._ahead = asked, checked
+        await asyncio.wait([checked])
+        if checked.exception() is not None:  # the page's own check meets it again, and is answered as any other
+            self._ahead = None
 
     async def check(self, request: Request) -> Response:
         """What is found in a text; ``number`` is that of its program, empty where it came to the page."""
-        return await self._checks.answered(answer, *await self._asked(request))
+        asked, ahead = await self._asked(request), self._ahead
+        self._ahead = None
+        if ahead is not None and ahead[0] == asked:
+            return JSONResponse(await ahead[1])
+        return await self._checks.answered(answer, *asked)
 
     async def version(self, request: Request) -> Response:
         """What is found in a text that waits for its turn, however many others are asked for."""
@@ -213,10 +243,10 @@ class _Checks:
         query = await told(request, "before", "after")
         return await self._lines.answered(changed_lines, query["before"], query["after"])
 
-    async def _asked(self, request: Request) -> tuple[str, Path | None, str, Chosen]:
+    async def _asked(self, request: Request) -> _Text:
         query = await told(request, "name", "text", "number", "machine", "thickness_mm")
         for_run = chosen(query["machine"], query["thickness_mm"])
-        return query["name"], self._programs.file(query["number"]), query["text"], for_run
+        return _Text(query["name"], self._programs.file(query["number"]), query["text"], for_run)
 
 
 class _Last:

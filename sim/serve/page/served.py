@@ -14,10 +14,10 @@ import secrets
 import signal
 import socket
 import sys
-from collections.abc import Awaitable, Callable, Iterator, Sequence
+from collections.abc import Awaitable, Callable, Coroutine, Iterator, Sequence
 from pathlib import Path
 from types import FrameType
-from typing import Final, NamedTuple
+from typing import Any, Final, NamedTuple
 
 import uvicorn
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
@@ -168,8 +168,9 @@ def serve(programs: Programs, port: int, ready: Callable[[str, Path], None]) -> 
     with _ended_by_signals(life), _listening(port) as listening, scratch() as folder:
         address = Address(f"{_HOST}:{listening.getsockname()[1]}", secrets.token_urlsafe(24))
         runs, drawings = Runs(folder), Drawings(folder)
+        app = app_of(programs, drawings, life, runs)
         config = uvicorn.Config(
-            Guard(app_of(programs, drawings, life, runs), address),
+            Guard(app, address),
             lifespan="off",
             log_level="critical",
             access_log=False,
@@ -179,7 +180,8 @@ def serve(programs: Programs, port: int, ready: Callable[[str, Path], None]) -> 
         server = _Server(config)
         way = _way_to(address, folder)
         ends = [runs.end, drawings.end, programs.end]
-        asyncio.run(_run(server, listening, life, lambda: ready(address.url, way), ends))
+        begun = _Begun(lambda: ready(address.url, way), app.state.ahead)
+        asyncio.run(_run(server, listening, life, begun, ends))
 
 
 def _way_to(address: Address, folder: Path) -> Path:
@@ -190,20 +192,29 @@ def _way_to(address: Address, folder: Path) -> Path:
     return file
 
 
+class _Begun(NamedTuple):
+    """What is done once requests are answered: who waits for it is told, and work of the first page is done ahead."""
+
+    ready: Callable[[], None]
+    ahead: Callable[[], Coroutine[Any, Any, None]]
+
+
 async def _run(
     server: uvicorn.Server,
     listening: socket.socket,
     life: Life,
-    ready: Callable[[], None],
+    begun: "_Begun",
     ends: Sequence[Callable[[], Awaitable[None]]],
 ) -> None:
-    """Serve until the life is over; `ends` end what the server has begun."""
+    """Serve until the life is over; `begun` is done once requests are answered, `ends` end what was begun."""
     serving = asyncio.create_task(server.serve(sockets=[listening]))
     while not server.started and not serving.done():
         await asyncio.sleep(0.01)
-    ready()
+    begun.ready()
+    ahead = asyncio.create_task(begun.ahead())
     while not life.is_over and not serving.done():
         await asyncio.sleep(_LOOK_S)
+    await ahead
     for end in ends:
         await end()
     server.should_exit = True

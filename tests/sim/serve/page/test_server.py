@@ -31,6 +31,7 @@ from sim.serve.page.runs import KEYS, Runs, zipped
 from sim.serve.page.served import MOST_BYTES
 
 WRONG = "B9900B0B39600GXNR1\nDD\n"
+SOUND = "B3000B0B3000GXL1\nB0B2000B2000GYL2\nB3000B0B3000GXL3\nB0B2000B2000GYL4\nDD\n"
 
 
 @pytest.fixture(name="served", scope="module")
@@ -46,6 +47,21 @@ def checked(served: OpenedPage, text: str, name: str = "part.3b", number: str = 
     answer = served.ask("check", json.dumps(told))
     assert answer.status == 200
     return json.loads(answer.body)
+
+
+@pytest.mark.parametrize("asks_otherwise", [False, True])
+def test_what_was_checked_before_the_page_asked_is_the_answer_to_that_alone(
+    tmp_path: Path, asks_otherwise: bool
+) -> None:
+    """It is of the text as it stood and the form as it is at first: each other one is checked by itself."""
+    file = tmp_path / "part.3b"
+    file.write_bytes(WRONG.encode())
+    with opened_page(file) as served:
+        if asks_otherwise:
+            assert checked(served, SOUND, number="0")["verdict"] == "pass"
+        first, again = checked(served, WRONG, number="0"), checked(served, WRONG, number="0")
+        assert first == again
+        assert first["verdict"] == "fail"
 
 
 def test_the_first_line_is_an_address_on_the_loopback_with_a_token_nobody_guesses(served: OpenedPage) -> None:
