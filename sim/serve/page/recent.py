@@ -7,12 +7,12 @@ done without.
 
 import contextlib
 import json
-import os
-import tempfile
 from pathlib import Path
 from typing import Final
 
 import platformdirs
+
+from sim.base.files.stages import staged
 
 _MOST: Final = 6
 _LONGEST: Final = 100_000
@@ -41,11 +41,5 @@ def remember(file: Path) -> None:
     with contextlib.suppress(OSError, ValueError):  # a name that is no text is not remembered
         data = json.dumps([str(each) for each in files], ensure_ascii=False).encode("utf-8")
         store = _store()
-        store.parent.mkdir(parents=True, exist_ok=True)
-        number, draft = tempfile.mkstemp(dir=store.parent)
-        try:
-            with os.fdopen(number, "wb") as made:
-                made.write(data)
-            Path(draft).replace(store)
-        except OSError:
-            Path(draft).unlink(missing_ok=True)
+        with staged(store.parent, [store.name]) as stage:
+            (stage / store.name).write_bytes(data)
