@@ -656,3 +656,20 @@ def test_what_was_opened_before_is_opened_by_one_click(browsers: Browsers, tmp_p
         shown.waits_for("pass")
         assert shown.text() == PUNCH
         assert not shown.page.locator("#begin").is_visible()
+
+
+def test_a_machine_file_that_is_dropped_is_chosen_and_checked_by(browsers: Browsers, tmp_path: Path) -> None:
+    file = tmp_path / "long.3b"
+    file.write_text("B150000B0B150000GXL1\nB0B90000B90000GYL2\nB150000B0B150000GXL3\nB0B90000B90000GYL4\nDD\n")
+    machine = (ROOT / "sim" / "setup" / "machine" / "dk7740.toml").read_text("utf-8")
+    narrow = re.sub(r"(?m)^travel_x_mm = \S+", "travel_x_mm = 100.0", machine)
+    with opened_page(file) as served, tab(browsers, served.address) as shown:
+        shown.waits_for("pass")
+        shown.drops("narrow.toml", narrow)
+        shown.waits_for("fail")
+        assert shown.page.input_value("[name=machine]") == "own-0"
+        assert "DK7740 class" in shown.page.inner_text("#reading-machine")
+        shown.drops("wrong.toml", "nonsense")
+        shown.page.locator("#status", has_text="wrong.toml").wait_for()
+        assert shown.page.input_value("[name=machine]") == "own-0", "the other one stays"
+        assert shown.text() == file.read_text(), "and the program"

@@ -4,6 +4,8 @@ Which lines of a text are others than in an earlier one.
 """
 
 import asyncio
+import os
+import re
 from collections.abc import Callable, Sequence
 from difflib import SequenceMatcher
 from itertools import takewhile
@@ -16,12 +18,14 @@ from starlette.requests import Request
 from starlette.responses import HTMLResponse, JSONResponse, Response
 from starlette.routing import Route
 
-from parser.findings.errors import FileUnreadableError, ProgramError
+from parser.findings.catalogue import Bilingual
+from parser.findings.errors import FileUnreadableError, ProgramError, SettingsError
 from parser.text.encoding import printable
 from sim.serve.page.answers import ReadFile, answer, file_of, file_text, printable_entry, read_file
 from sim.serve.page.child import Life
 from sim.serve.page.drawings import Drawings, is_drawing
 from sim.serve.page.form import Chosen, chosen
+from sim.serve.page.machines import Machines, is_machine, machine_of
 from sim.serve.page.model import AnswerEntry, ChangeEntry, ChangesEntry, FileTextEntry
 from sim.serve.page.programs import STARTS, Programs, row_or_why, start
 from sim.serve.page.runs import (
@@ -37,6 +41,7 @@ from sim.serve.page.runs import (
     told,
 )
 from sim.show.open_page.page import open_page
+from sim.show.texts.phrases import machine_name
 
 _AFTER_FIRST_S: Final = 1.0
 """From the first page on: its first check is to be answered before a process for runs takes time from it."""
@@ -83,9 +88,17 @@ def _place(was: Sequence[str], now: Sequence[str], row: int) -> ChangeEntry:
     }
 
 
-def app_of(programs: Programs, drawings: Drawings, life: Life, runs: Runs) -> Starlette:
+class Stores(NamedTuple):
+    """Where what comes to the page stands."""
+
+    drawings: Drawings
+    machines: Machines
+
+
+def app_of(programs: Programs, stores: Stores, life: Life, runs: Runs) -> Starlette:
     """The application behind the guard; ``state.ahead`` does at the start what the page will ask for."""
-    files, texts = _Files(programs, drawings, life, runs), _Checks(programs)
+    drawings = stores.drawings
+    files, texts = _Files(programs, stores, life, runs), _Checks(programs, stores.machines.folder)
     running, drawn = Running(life, runs, programs, drawings), Drawn(drawings, runs)
     works: list[Work] = [files.first, files.read, files.save, files.alive, files.close]
     works += [files.program, files.example, files.rows, files.again, files.row]
@@ -106,8 +119,8 @@ def app_of(programs: Programs, drawings: Drawings, life: Life, runs: Runs) -> St
 class _Files:
     """The page itself, and programs as they come to it and go from it."""
 
-    def __init__(self, programs: Programs, drawings: Drawings, life: Life, runs: Runs) -> None:
-        self._programs, self._drawings, self._life, self._runs = programs, drawings, life, runs
+    def __init__(self, programs: Programs, stores: Stores, life: Life, runs: Runs) -> None:
+        self._programs, self._stores, self._life, self._runs = programs, stores, life, runs
         self._warming: asyncio.Task[None] | None = None
 
     async def page(self, _: Request) -> Response:
@@ -175,8 +188,19 @@ class _Files:
 
     def _answer(self, name: str, data: bytes, number: str = "") -> FileTextEntry:
         if is_drawing(name, data):
-            return {**_read(name, b""), "drawing": self._drawings.keep(name, data)}
-        return _read(name, data, number)
+            return {**_read(name, b""), "drawing": self._stores.drawings.keep(name, data)}
+        return self._machine(name, data) if is_machine(name) else _read(name, data, number)
+
+    def _machine(self, name: str, data: bytes) -> FileTextEntry:
+        machines = self._stores.machines
+        try:
+            own = machines.keep(data)
+        except SettingsError as error:
+            texts = (text.replace(str(machines.folder) + os.sep, "") for text in error.in_both())
+            named = Bilingual(*(re.sub(r"own-\d+\.toml", lambda _: name, text, count=1) for text in texts))
+            return {**_read(name, b""), "why": printable_entry(named)}
+        title = machine_name(machine_of(own, machines.folder))
+        return {**_read(name, b""), "machine": {"name": own, "title": printable_entry(title)}}
 
     async def save(self, request: Request) -> Response:
         """The bytes of a text."""
@@ -207,8 +231,8 @@ class _Text(NamedTuple):
 class _Checks:
     """What is found in texts, and how they differ."""
 
-    def __init__(self, programs: Programs) -> None:
-        self._programs = programs
+    def __init__(self, programs: Programs, machine_files: Path) -> None:
+        self._programs, self._machine_files = programs, machine_files
         self._checks, self._lines = _Last(), _Last()
         self._ahead: tuple[_Text, asyncio.Task[AnswerEntry]] | None = None
 
@@ -219,33 +243,38 @@ class _Checks:
         """
         opened = self._programs.opened
         text = _read(opened.name, opened.data)["text"] or ""
-        asked = _Text(printable(opened.name), self._programs.file("0") if text else None, text, chosen("", ""))
-        checked = asyncio.create_task(run_in_threadpool(answer, *asked))
-        self._ahead = asked, checked
+        first = _Text(
+            printable(opened.name),
+            self._programs.file("0") if text else None,
+            text,
+            chosen("", "", self._machine_files),
+        )
+        checked = asyncio.create_task(run_in_threadpool(answer, *first))
+        self._ahead = first, checked
         await asyncio.wait([checked])
         if checked.exception() is not None:  # the page's own check meets it again, and is answered as any other
             self._ahead = None
 
     async def check(self, request: Request) -> Response:
         """What is found in a text; ``number`` is that of its program, empty where it came to the page."""
-        asked, ahead = await self._asked(request), self._ahead
+        text, ahead = await self._text(request), self._ahead
         self._ahead = None
-        if ahead is not None and ahead[0] == asked:
+        if ahead is not None and ahead[0] == text:
             return JSONResponse(await ahead[1])
-        return await self._checks.answered(answer, *asked)
+        return await self._checks.answered(answer, *text)
 
     async def version(self, request: Request) -> Response:
         """What is found in a text that waits for its turn, however many others are asked for."""
-        return JSONResponse(await run_in_threadpool(answer, *await self._asked(request)))
+        return JSONResponse(await run_in_threadpool(answer, *await self._text(request)))
 
     async def lines(self, request: Request) -> Response:
         """Which lines of a text are others than before."""
         query = await told(request, "before", "after")
         return await self._lines.answered(changed_lines, query["before"], query["after"])
 
-    async def _asked(self, request: Request) -> _Text:
+    async def _text(self, request: Request) -> _Text:
         query = await told(request, "name", "text", "number", "machine", "thickness_mm")
-        for_run = chosen(query["machine"], query["thickness_mm"])
+        for_run = chosen(query["machine"], query["thickness_mm"], self._machine_files)
         return _Text(query["name"], self._programs.file(query["number"]), query["text"], for_run)
 
 

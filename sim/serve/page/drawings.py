@@ -12,6 +12,7 @@ from typing import Any, Final
 from parser.files import PLOTS, kind_of
 from parser.text.encoding import printable
 from sim.serve.page.child import Child, begun
+from sim.serve.page.machines import machine_files
 from sim.setup.settable import FIELDS
 
 _UNSAFE: Final = re.compile(r"[^\w.-]")
@@ -71,7 +72,7 @@ class Drawings:
     """
 
     def __init__(self, folder: Path) -> None:
-        self._folder = folder / "drawings"
+        self._folder, self._machines = folder / "drawings", machine_files(folder)
         self._files: list[Path] = []
         self._planner: Child | None = None
         self._turn = asyncio.Lock()
@@ -97,11 +98,14 @@ class Drawings:
         """Where the program that is made of the drawing of a number is told."""
         return self._folder / number / "made.json"
 
+    def _task(self, file: Path, query: dict[str, str]) -> dict[str, str]:
+        return {**query, "drawing_file": str(file), "machine_files": str(self._machines)}
+
     async def look(self, file: Path, query: dict[str, str]) -> bytes:
         """What is found in a drawing, in JSON: ``why`` alone where it is none, or took too long."""
         result = file.with_name("look.json")
         child = await begun("sim.serve.page.drafter")
-        task = {**query, "drawing_file": str(file), "result_file": str(result), "job": "look"}
+        task = {**self._task(file, query), "result_file": str(result), "job": "look"}
         try:
             last = await asyncio.wait_for(_last(child, task), _LONGEST_S)
         except TimeoutError:
@@ -116,7 +120,7 @@ class Drawings:
         One process makes one plan behind the other, so that each takes no more than the plan itself.
         """
         result = file.with_name("plan.json")
-        task = {**query, "drawing_file": str(file), "result_file": str(result)}
+        task = {**self._task(file, query), "result_file": str(result)}
         async with self._turn:
             if self._planner is None or not self._planner.is_alive:
                 self._planner = await begun("sim.serve.page.planner")

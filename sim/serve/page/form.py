@@ -11,7 +11,8 @@ from parser.findings.errors import Message, SettingsError
 from parser.text.encoding import narrow
 from parser.units import from_mm
 from sim.serve.page.child import PageRequest
-from sim.setup.machine.machine import Machine, load_machine, machine_names
+from sim.serve.page.machines import machine_of
+from sim.setup.machine.machine import Machine, machine_names
 from sim.setup.part import (
     DEFAULT_THICKNESS_MM,
     OFFSET_MM,
@@ -45,9 +46,9 @@ def scenario_of(request: PageRequest, file: Path) -> Scenario:
     """
     scenario = load_scenario(file)
     if request["machine"]:
-        if request["machine"] not in machine_names():  # a page names no file of the disk
-            raise SettingsError("machine-not-shipped-on-page", name=request["machine"][:40])
-        scenario = replace(scenario, machine=load_machine(request["machine"]), machine_by_default=False)
+        files = request.get("machine_files")
+        machine = machine_of(request["machine"], Path(files) if files else None)
+        scenario = replace(scenario, machine=machine, machine_by_default=False)
     given = {key.name: _setting(request[form], key) for form, key in FIELDS.items() if request[form]}
     scenario = with_settings(scenario, given)
     if request["drawing_file"]:
@@ -86,45 +87,57 @@ def _offset(request: PageRequest) -> Offset | None:
 
 
 class Chosen(NamedTuple):
-    """What the form of the page chooses for its run: a shipped machine, empty for the default one, and a thickness."""
+    """What the form of the page chooses for its run: a machine, empty for the default one, and a thickness.
+
+    `files` is the folder of the machine files that came to the page.
+    """
 
     name: str = ""
     thickness_mm: float = DEFAULT_THICKNESS_MM
+    files: Path | None = None
 
     @property
     def machine(self) -> Machine | None:
         """The machine that is chosen; None where none is."""
-        return _machine(self.name) if self.name else None
+        return _machine(self.name, self.files) if self.name else None
 
     @property
     def known_as(self) -> str:
-        """Name of the file of a run's machine."""
-        return self.name or DEFAULT_MACHINE
+        """What a run's machine is called: name of its file, or the one in the file that came to the page."""
+        return self._of_run.name if self.name and self.name not in machine_names() else self.name or DEFAULT_MACHINE
 
     @property
     def feeds(self) -> Feeds:
         """Feeds of cuts and jumps, µm/s, as a run would have them: settings of checks name no machine of a run."""
-        return _machine(self.known_as).feeds(self.thickness_mm)
+        return self._of_run.feeds(self.thickness_mm)
 
     @property
     def title(self) -> Bilingual:
         """What people call a run's machine."""
-        return machine_name(_machine(self.known_as))
+        return machine_name(self._of_run)
+
+    @property
+    def _of_run(self) -> Machine:
+        return _machine(self.name or DEFAULT_MACHINE, self.files)
 
 
 USUAL: Final = Chosen()
 """What a run has that chooses nothing."""
 
 
-def chosen(machine: str, thickness_mm: str) -> Chosen:
+def chosen(machine: str, thickness_mm: str, files: Path | None = None) -> Chosen:
     """What the texts of the form choose; what is wrong in them leaves what is usual, and is told at the form."""
-    name = machine if machine in machine_names() else ""
+    name = machine
     try:
-        return Chosen(name, number_of(thickness_mm, THICKNESS_MM, _NAMES["thickness_mm"]))
+        _machine(machine, files)
     except SettingsError:
-        return Chosen(name)
+        name = ""
+    try:
+        return Chosen(name, number_of(thickness_mm, THICKNESS_MM, _NAMES["thickness_mm"]), files)
+    except SettingsError:
+        return Chosen(name, files=files)
 
 
 @cache
-def _machine(name: str) -> Machine:
-    return load_machine(name)
+def _machine(name: str, files: Path | None) -> Machine:
+    return machine_of(name, files)

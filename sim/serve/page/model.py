@@ -23,6 +23,13 @@ class RecentEntry(TypedDict):
     number: str
 
 
+class MachineFileEntry(TypedDict):
+    """A machine file that came to the page: the name by which a form names it, and what people call the machine."""
+
+    name: str
+    title: SaidEntry
+
+
 class FileTextEntry(TypedDict):
     """A file as a text with lines that end with LF, and what brings back its bytes; of a drawing its number."""
 
@@ -32,7 +39,8 @@ class FileTextEntry(TypedDict):
     newline: Annotated[str, "how all lines end; where they end in several ways, a letter for each"]
     number: Annotated[str, "of the program whose file it is; empty where it came to the page"]
     drawing: NotRequired[str]
-    why: NotRequired[Annotated[SaidEntry, "what was to be open at the start could not be"]]
+    machine: NotRequired[MachineFileEntry]
+    why: NotRequired[Annotated[SaidEntry, "what was to be open at the start could not be, or is no machine"]]
     recent: NotRequired[Annotated[list[RecentEntry], "where nothing is open at the start"]]
 
 

@@ -29,6 +29,7 @@ from starlette.responses import FileResponse, JSONResponse, Response, StreamingR
 from parser.text.encoding import printable
 from sim.serve.page.child import Child, Life, begun
 from sim.serve.page.drawings import LOOK_KEYS, MAKE_KEYS, PLAN_KEYS, Drawings, safe_name
+from sim.serve.page.machines import machine_files
 from sim.serve.page.programs import Programs
 from sim.setup.settable import FIELDS
 
@@ -92,7 +93,7 @@ class Runs:
         """Make a program of ``drawing_file``, which is told in ``result_file``."""
         async with self._turn:
             await self._end()
-            await self._begin({**query, "job": "program"})
+            await self._begin({**query, "machine_files": str(machine_files(self._folder)), "job": "program"})
 
     async def warm(self) -> None:
         """Have a process ready for the next job from now on: it begins to compute at once."""
@@ -130,6 +131,7 @@ class Runs:
         file.write_bytes(text)
         self._asked = {
             **{key: query[key] for key in (*KEYS, "drawing_file", "near_file")},
+            "machine_files": str(machine_files(self._folder)),
             "file": str(file),
             "folder": str(self._made_in(self._number)),
         }

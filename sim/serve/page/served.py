@@ -24,9 +24,10 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from parser.findings.errors import DrycutError, system_message
 from sim.base.files import scratch
-from sim.serve.page.app import app_of
+from sim.serve.page.app import Stores, app_of
 from sim.serve.page.child import Life
 from sim.serve.page.drawings import Drawings
+from sim.serve.page.machines import Machines
 from sim.serve.page.programs import Programs
 from sim.serve.page.runs import Runs
 
@@ -168,7 +169,7 @@ def serve(programs: Programs, port: int, ready: Callable[[str, Path], None]) -> 
     with _ended_by_signals(life), _listening(port) as listening, scratch() as folder:
         address = Address(f"{_HOST}:{listening.getsockname()[1]}", secrets.token_urlsafe(24))
         runs, drawings = Runs(folder), Drawings(folder)
-        app = app_of(programs, drawings, life, runs)
+        app = app_of(programs, Stores(drawings, Machines(folder)), life, runs)
         config = uvicorn.Config(
             Guard(app, address),
             lifespan="off",

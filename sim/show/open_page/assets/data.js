@@ -123,8 +123,16 @@
  * @property {string} newline how all lines end; where they end in several ways, a letter for each
  * @property {string} number of the program whose file it is; empty where it came to the page
  * @property {string} [drawing]
- * @property {Said} [why] what was to be open at the start could not be
+ * @property {MachineFile} [machine]
+ * @property {Said} [why] what was to be open at the start could not be, or is no machine
  * @property {Recent[]} [recent] where nothing is open at the start
+ */
+
+/**
+ * A machine file that came to the page: the name by which a form names it, and what people call the machine.
+ * @typedef {object} MachineFile
+ * @property {string} name
+ * @property {Said} title
  */
 
 /**

@@ -12,12 +12,13 @@ const ALIVE_MS = 20_000;
  * @param {(read: FileText) => void} page.begin opens a program
  * @param {(number: string, name: string) => Promise<void>} page.draw takes a drawing
  * @param {(files: File[]) => Promise<void>} page.list shows several files
+ * @param {(read: FileText) => void} page.machine takes a machine, or says why it is none
  * @param {() => void} page.unlist shows the program
  * @param {() => { file: FileText, text: string, name: string }} page.current the program as it stands
  * @param {() => void} page.onSaved
  * @param {(key: string) => void} page.tell says what went wrong
  */
-export function wireFiles({ begin, draw, list, unlist, current, onSaved, tell }) {
+export function wireFiles({ begin, draw, list, machine, unlist, current, onSaved, tell }) {
   const pick = element("#pick", HTMLInputElement);
 
   /**
@@ -26,6 +27,7 @@ export function wireFiles({ begin, draw, list, unlist, current, onSaved, tell })
    */
   async function take(read) {
     if (read.drawing) await draw(read.drawing, read.name);
+    else if (read.machine || read.why) machine(read);
     else begin(read);
   }
 

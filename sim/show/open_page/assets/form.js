@@ -1,7 +1,9 @@
 // The form of the run: its values, which of them cannot be, and the offset that wire and gap give.
-import { elements, element } from "../../html/assets/elements.js";
+import { elements, element, make } from "../../html/assets/elements.js";
 import * as language from "../../html/assets/language.js";
 import { mm } from "./size.js";
+
+/** @import { MachineFile } from "./data.js" */
 
 const LATER_MS = 150;
 /** @type {Record<string, string>} */
@@ -88,6 +90,19 @@ export function wireForm(onChange) {
   return {
     isRight,
     wire,
+    /**
+     * Offer a machine whose file came to the page, and choose it.
+     * @param {MachineFile} file
+     */
+    addMachine({ name, title: { en, zh } }) {
+      const machines = element("[name=machine]", HTMLSelectElement, form);
+      const option = make("option", { value: name });
+      Object.assign(option.dataset, { textEn: en, textZh: zh });
+      machines.append(option);
+      language.nameControls();
+      machines.value = name;
+      machines.dispatchEvent(new window.Event("input", { bubbles: true }));
+    },
     /**
      * The values by their names, as texts.
      * @returns {Record<string, string>}

@@ -76,6 +76,10 @@ const files = wireFiles({
     return taken;
   },
   list: (dropped) => listing.take(dropped),
+  machine({ machine, why }) {
+    if (machine) form.addMachine(machine);
+    else if (why) tell("machine-refused", { why: language.pick(why) });
+  },
   unlist: () => listing.hide(),
   current: () => ({ file, text: text.value, name: nameOf() }),
   onSaved: () => versions.keep("saved"),
@@ -277,9 +281,10 @@ function nameOf() {
  */
 function start(read) {
   files.recent(read.recent ?? []);
-  if (!read.drawing && (read.text !== "" || !text.value)) begin(read);
+  const isOther = read.drawing || read.machine;
+  if (!isOther && (read.text !== "" || !text.value)) begin(read);
   else title.textContent = language.say("untitled");
-  if (read.drawing) files.take(read);
+  if (isOther) files.take(read);
 }
 
 language.onChange(show);

@@ -1,0 +1,60 @@
+"""Machine files that came to the page: each has a name that no shipped machine has, by which a form names it."""
+
+import re
+from pathlib import Path
+from typing import Final
+
+from parser.findings.errors import SettingsError
+from sim.setup.machine.machine import Machine, load_machine, machine_names
+
+_OWN: Final = re.compile(r"own-\d{1,9}")
+
+
+class Machines:
+    """The machine files of the page.
+
+    Parameters
+    ----------
+    folder
+        Of the files of the server; who gave it clears it away.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = machine_files(folder)
+        self._count = 0
+
+    def keep(self, data: bytes) -> str:
+        """The name of a file that came. SettingsError, which names the file by that name, where it is no machine."""
+        name = f"own-{self._count}"
+        self._count += 1
+        self.folder.mkdir(exist_ok=True)
+        file = self.folder / f"{name}.toml"
+        file.write_bytes(data)
+        try:
+            load_machine(name, own=self.folder)
+        except SettingsError:
+            file.unlink()
+            raise
+        return name
+
+
+def machine_files(folder: Path) -> Path:
+    """Where the machine files stand in the folder of a server."""
+    return folder / "machines"
+
+
+def is_machine(name: str) -> bool:
+    """Whether a file that came is meant as a machine, by its name."""
+    return name.lower().endswith(".toml")
+
+
+def machine_of(name: str, files: Path | None) -> Machine:
+    """A shipped machine, or one that came to the page and stands in `files`: a page names no other file of the disk.
+
+    SettingsError for another name.
+    """
+    if name in machine_names():
+        return load_machine(name)
+    if files is not None and _OWN.fullmatch(name) and (files / f"{name}.toml").is_file():
+        return load_machine(name, own=files)
+    raise SettingsError("machine-not-shipped-on-page", name=name[:40])
