@@ -112,7 +112,7 @@ def app_of(programs: Programs, stores: Stores, life: Life, runs: Runs) -> Starle
             *(Route(f"/{name_of(work)}", guarded(work), methods=["POST"]) for work in works),
         ]
     )
-    app.state.ahead = texts.ahead
+    app.state.ahead = files.ahead if is_drawing(programs.opened.name, programs.opened.data) else texts.ahead
     return app
 
 
@@ -143,8 +143,13 @@ class _Files:
             ]
         return JSONResponse(read)
 
+    async def ahead(self) -> None:
+        """Have the process ready that looks at the drawing which is open at the start."""
+        await self._stores.drawings.warm()
+
     async def _warm(self) -> None:
         await asyncio.sleep(_AFTER_FIRST_S)
+        await self._stores.drawings.warm()
         await self._runs.warm()
 
     async def program(self, request: Request) -> Response:

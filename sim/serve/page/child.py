@@ -48,14 +48,14 @@ def do(jobs: Mapping[str, Job], warm_up: Callable[[], None] | None = None) -> No
         _tell(wrong=error.in_both()._asdict())
 
 
-def do_each(job: Job) -> None:
-    """Do a job for each line that asks for it, one behind the other, until the server ends."""
+def do_each(jobs: Mapping[str, Job]) -> None:
+    """Do one of the jobs for each line that asks for it, one behind the other, until the server ends."""
     requests: SimpleQueue[PageRequest] = SimpleQueue()
     threading.Thread(target=_queue_requests, args=(requests,), daemon=True).start()
     while True:
         query = requests.get()
         try:
-            _tell(done=job(query))
+            _tell(done=jobs[query["job"]](query))
         except DrycutError as error:
             _tell(wrong=error.in_both()._asdict())
 

@@ -7,7 +7,7 @@ import asyncio
 import json
 import re
 from pathlib import Path
-from typing import Any, Final
+from typing import Final
 
 from parser.files import PLOTS, kind_of
 from parser.text.encoding import printable
@@ -75,6 +75,7 @@ class Drawings:
         self._folder, self._machines = folder / "drawings", machine_files(folder)
         self._files: list[Path] = []
         self._planner: Child | None = None
+        self._busy_with: Path | None = None
         self._turn = asyncio.Lock()
 
     def keep(self, name: str, data: bytes) -> str:
@@ -98,42 +99,43 @@ class Drawings:
         """Where the program that is made of the drawing of a number is told."""
         return self._folder / number / "made.json"
 
-    def _task(self, file: Path, query: dict[str, str]) -> dict[str, str]:
-        return {**query, "drawing_file": str(file), "machine_files": str(self._machines)}
-
     async def look(self, file: Path, query: dict[str, str]) -> bytes:
         """What is found in a drawing, in JSON: ``why`` alone where it is none, or took too long."""
-        result = file.with_name("look.json")
-        child = await begun("sim.serve.page.drafter")
-        task = {**self._task(file, query), "result_file": str(result), "job": "look"}
-        try:
-            last = await asyncio.wait_for(_last(child, task), _LONGEST_S)
-        except TimeoutError:
-            last = {}
-        finally:
-            child.end()
-        return result.read_bytes() if "done" in last else _why(last.get("wrong"))
+        return await self._answer("look", file, query)
 
     async def plan(self, file: Path, query: dict[str, str]) -> bytes:
-        """What would be cut of a drawing, in JSON: ``why`` alone where nothing can be, or it took too long.
+        """What would be cut of a drawing, in JSON: ``why`` alone where nothing can be, or it took too long."""
+        return await self._answer("plan", file, query)
 
-        One process makes one plan behind the other, so that each takes no more than the plan itself.
-        """
-        result = file.with_name("plan.json")
-        task = {**self._task(file, query), "result_file": str(result)}
+    async def warm(self) -> None:
+        """Have the process ready that looks and plans."""
         async with self._turn:
-            if self._planner is None or not self._planner.is_alive:
-                self._planner = await begun("sim.serve.page.planner")
+            await self._process()
+
+    async def _answer(self, job: str, file: Path, query: dict[str, str]) -> bytes:
+        """What comes of a job; what is under way for another drawing is ended, since nobody looks at that one now."""
+        result = file.with_name(f"{job}.json")
+        task = {**query, "job": job, "drawing_file": str(file), "machine_files": str(self._machines)}
+        if self._turn.locked() and self._planner is not None and self._busy_with not in {None, file}:
+            self._planner.end()
+        async with self._turn:
+            planner, self._busy_with = await self._process(), file
             try:
-                last = await asyncio.wait_for(self._planner.answer(task), _LONGEST_S)
+                last = await asyncio.wait_for(planner.answer({**task, "result_file": str(result)}), _LONGEST_S)
             except TimeoutError:
                 last = {}
+            self._busy_with = None
             if not last:
                 await self._end_planner()
             return result.read_bytes() if "done" in last else _why(last.get("wrong"))
 
+    async def _process(self) -> Child:
+        if self._planner is None or not self._planner.is_alive:
+            self._planner = await begun("sim.serve.page.planner")
+        return self._planner
+
     async def end(self) -> None:
-        """End the process of the plans."""
+        """End the process that looks and plans."""
         async with self._turn:
             await self._end_planner()
 
@@ -141,12 +143,6 @@ class Drawings:
         planner, self._planner = self._planner, None
         if planner is not None:
             await planner.close()
-
-
-async def _last(child: Child, query: dict[str, str]) -> dict[str, Any]:
-    """What a process tells last; nothing where it tells nothing."""
-    lines = [line async for line in child.tells(query)]
-    return lines[-1] if lines else {}
 
 
 def _why(said: dict[str, str] | None) -> bytes:

@@ -1,4 +1,8 @@
-"""The process of plans: what would be cut of a drawing, without its proof, again for each change of what is asked."""
+"""The process of a drawing on the page: it is laid beneath a program, and what would be cut of it is planned.
+
+It does one after the other, so that each takes no more than the work itself. A drawing may be huge or hostile: the
+process can be ended at any moment. What it found is a file of JSON, which may be large.
+"""
 
 import json
 from pathlib import Path
@@ -6,22 +10,70 @@ from typing import Any
 
 import numpy as np
 
-from parser.findings.catalogue import LANGUAGES, Bilingual
+from parser.drawing.model import Drawing
+from parser.drawing.read import read_drawing
+from parser.findings.catalogue import LANGUAGES, Bilingual, remark_text
+from parser.findings.errors import DrycutError
+from parser.program import load_program, moving
 from parser.shape.contours import runs
 from parser.shape.passes import find_passes, leads_of
+from parser.toolpath import Toolpath
 from parser.units import mm
 from sim.base.units import place
 from sim.make.cam.maker import MadeProgram, unproved
-from sim.measure.compare.starts import Placement, placed
+from sim.measure.compare.compare import compare_program
+from sim.measure.compare.result import FitRequest
+from sim.measure.compare.starts import IN_PLACE, Placement, placed
+from sim.run.prepare import as_run
 from sim.serve.page.answers import printable_entry
 from sim.serve.page.child import PageRequest, do_each
-from sim.serve.page.making import asked_of, by_controls
-from sim.serve.page.model import PlannedEntry, PlannedFigureEntry
+from sim.serve.page.form import scenario_of
+from sim.serve.page.making import asked_of, by_controls, target_of
+from sim.serve.page.model import LookedEntry, PlannedEntry, PlannedFigureEntry
+from sim.setup.part import DrawingTarget
+from sim.setup.scenario import Scenario
 from sim.show.refusals import why_refused
-from sim.show.replay.tape import exact_columns
+from sim.show.replay.tape import drawing_columns, exact_columns
 from sim.show.terminal.program import to_check
 from sim.show.texts import bilingual
 from sim.show.texts.phrases import numbered
+
+
+def _look(request: PageRequest) -> dict[str, Any]:
+    """Read the drawing, and lay it beneath the program of the page as a run with it would."""
+    target = target_of(request)
+    drawing = read_drawing(target.file, gap_um=target.gap_um, unit=target.unit)
+    placement, notes = _placement(request, drawing, target) if request["text"].strip() else (IN_PLACE, [])
+    of_drawing = [Bilingual(*(remark_text(note, language) for language in LANGUAGES)) for note in drawing.notes]
+    remarks = [printable_entry(by_controls(each)) for each in (*of_drawing, *notes)]
+    looked: LookedEntry = {
+        "unit": drawing.unit,
+        "curves": drawing_columns(drawing, placement),
+        "placement": {
+            "turn_rad": placement.turn_rad,
+            "shift_um": list(placement.shift_um),
+            "mirror": placement.mirror,
+        },
+        "told": remarks,
+    }
+    return _written(request, looked)
+
+
+def _placement(request: PageRequest, drawing: Drawing, target: DrawingTarget) -> tuple[Placement, list[Bilingual]]:
+    """Where the drawing lies beneath the program; as it is, with the reason, where its edge cannot be told."""
+    try:
+        scenario = scenario_of({**request, "drawing_file": ""}, target.file.with_suffix(""))
+        path = _path(request, scenario)
+        how = FitRequest(target.tolerance_um, target.fit, target.sharp_corners)
+        return compare_program(path, scenario.wire.reach_um, drawing, how).placement, []
+    except DrycutError as error:
+        return IN_PLACE, [error.in_both()]
+
+
+def _path(request: PageRequest, scenario: Scenario) -> Toolpath:
+    """The path of the page's program, as the controller makes it."""
+    program = moving(load_program(request["text"].encode("utf-8", "replace"), request["name"], scenario.choices))
+    return as_run(program, scenario.offset).toolpath
 
 
 def _plan(request: PageRequest) -> dict[str, Any]:
@@ -29,14 +81,19 @@ def _plan(request: PageRequest) -> dict[str, Any]:
     done = unproved(*asked_of(request))
     entry: PlannedEntry
     if isinstance(done, MadeProgram):
-        entry = _entry(done, _placement(request["placement"]))
+        entry = _entry(done, _laid(request["placement"]))
     else:
         entry = {"why": printable_entry(by_controls(why_refused(done.refusal)))}
-    Path(request["result_file"]).write_text(json.dumps(entry), encoding="utf-8")
+    return _written(request, entry)
+
+
+def _written(request: PageRequest, found: LookedEntry | PlannedEntry) -> dict[str, Any]:
+    """Nothing: what was found goes into the file that was asked for."""
+    Path(request["result_file"]).write_text(json.dumps(found), encoding="utf-8")
     return {}
 
 
-def _placement(text: str) -> Placement:
+def _laid(text: str) -> Placement:
     """How the page has the drawing lie beneath its program."""
     laid = json.loads(text)
     x, y = map(float, laid["shift_um"])
@@ -66,4 +123,4 @@ def _entry(done: MadeProgram, placement: Placement) -> PlannedEntry:
 
 
 if __name__ == "__main__":
-    do_each(_plan)
+    do_each({"look": _look, "plan": _plan})

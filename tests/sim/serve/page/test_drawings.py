@@ -15,8 +15,9 @@ from opened_page import OpenedPage, opened_page
 
 from parser.findings.errors import DrawingError, SettingsError
 from sim.serve.page.answers import answer
-from sim.serve.page.drafter import _look, _make
+from sim.serve.page.drafter import _make
 from sim.serve.page.drawings import LOOK_KEYS, MAKE_KEYS, PLAN_KEYS, is_drawing
+from sim.serve.page.planner import _look
 
 # The plate of `plate` as a punch: the wire of 0.18 mm and its gap of 10 µm run 0.1 mm outside, from a thread point
 # that lies 1 mm above its upper edge, at (0, 0) of the program.
