@@ -11,7 +11,7 @@ from browser import Browsers
 from drawings_dxf import drawn
 from ezdxf.layouts import Modelspace
 from golden_pictures import assert_golden_screen
-from open_tab import Tab, tab
+from open_tab import Tab, Window, tab, tab_in
 from opened_page import OpenedPage, opened_page
 from page_checks import complaints
 from places import ROOT
@@ -270,7 +270,7 @@ def test_the_keyboard_alone_plays_and_changes_tabs(browsers: Browsers, square: O
 
 
 def test_the_workbench_in_chinese_is_the_golden_one(browsers: Browsers) -> None:
-    with opened_page(KEYHOLE) as served, tab(browsers, served.address, lang="zh", golden="light") as shown:
+    with opened_page(KEYHOLE) as served, tab_in(browsers, served.address, Window(lang="zh", is_golden=True)) as shown:
         shown.waits_for("pass")
         shown.page.focus("#picture")
         shown.page.keyboard.press("ArrowDown")
@@ -281,7 +281,7 @@ def test_the_workbench_in_chinese_is_the_golden_one(browsers: Browsers) -> None:
 def test_the_plan_of_a_drawing_in_chinese_is_the_golden_one(
     browsers: Browsers, empty: OpenedPage, tmp_path: Path
 ) -> None:
-    with tab(browsers, empty.address, lang="zh", golden="dark") as shown:
+    with tab_in(browsers, empty.address, Window(lang="zh", scheme="dark", is_golden=True)) as shown:
         shown.page.set_input_files("#pick", drawn(tmp_path, plate))
         shown.page.locator("#drawing-told li").wait_for()
         shown.page.locator("#drawing-told li", has_text="227.642 mm").wait_for()
@@ -291,6 +291,49 @@ def test_the_plan_of_a_drawing_in_chinese_is_the_golden_one(
         shown.page.locator("#drawing-told li", has_text="454.874 mm").wait_for()
         shown.page.evaluate("() => new Promise(drawn => requestAnimationFrame(() => requestAnimationFrame(drawn)))")
         assert_golden_screen(shown.page, "workbench-plan-dark-zh.png")
+
+
+@pytest.mark.alike(4)
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("lang", ["en", "zh"])
+@pytest.mark.parametrize(("width", "height"), [*SIZES, (390, 844)])
+def test_the_way_of_a_user_by_the_keyboard_alone(  # noqa: PLR0917 - a window's sides and moods
+    browsers: Browsers, tmp_path: Path, width: int, height: int, lang: str, scheme: str
+) -> None:
+    """Opened, seen, played, mended, run, its verdict read without scrolling, saved."""
+    wrong = "B900B0B900GXL1\nB900B0B3600GXNR1\nB900B0B3600GXNR1\nDD\n"
+    file = tmp_path / "part.3b"
+    file.write_text(wrong)
+    with opened_page() as served, tab_in(browsers, served.address, Window(width, height, lang, scheme)) as shown:
+        page = shown.page
+
+        def press(selector: str) -> None:
+            page.focus(selector)
+            page.keyboard.press("Enter")
+
+        blank = page.evaluate("() => document.querySelector('#picture').toDataURL()")
+        with page.expect_file_chooser() as chooser:
+            press("#open")
+        chooser.value.set_files(file)
+        shown.waits_for("fail")
+        assert page.evaluate("() => document.querySelector('#picture').toDataURL()") != blank
+        assert shown.codes()
+        press("[data-do=toggle]")
+        page.wait_for_function("() => !document.querySelector('#reading-cut').textContent.startsWith('0.000')")
+        press("#mend-all")
+        shown.waits_for("pass")
+        assert shown.text() == wrong.replace("3600GX", "3600GY")
+        press("#start")
+        page.wait_for_selector("[data-of-run]:visible")
+        shown.waits_for("pass")
+        at = box_of(page, "#counts")
+        assert page.evaluate("() => window.scrollY") == 0
+        assert at["y"] >= 0.0
+        assert at["y"] + at["height"] <= height
+        with page.expect_download() as saved:
+            press("#save")
+        assert Path(saved.value.path()).read_text() == shown.text()
+        assert complaints(page) == []
 
 
 @needs_axe

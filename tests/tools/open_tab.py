@@ -1,8 +1,8 @@
 """The page of ``drycut open`` in a browser."""
 
 from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
-from typing import TYPE_CHECKING
+from contextlib import AbstractContextManager, ExitStack, contextmanager
+from typing import TYPE_CHECKING, NamedTuple
 from urllib.parse import urlsplit
 
 from browser import LOCALES, WAIT_MS, Browsers
@@ -44,17 +44,27 @@ class Tab:
         )
 
 
-@contextmanager
-def tab(
-    browsers: Browsers, address: str, width: int = 1280, lang: str = "en", *, golden: str | None = None
-) -> Iterator[Tab]:
-    """A page in a browser that asks nothing but its server; complaints fail the test.
+class Window(NamedTuple):
+    """What a page is seen in; with `is_golden` every text is in the shipped font, the same on every machine."""
 
-    For a `golden` picture it is in the shipped font, and in that colour scheme.
-    """
-    contexts = browsers.of(golden is not None)
-    settings = {"locale": LOCALES[lang], "accept_downloads": True, "color_scheme": golden or "light"}
-    lent = contexts.lend(settings, width, 800, "http://" + urlsplit(address).netloc)
+    width: int = 1280
+    height: int = 800
+    lang: str = "en"
+    scheme: str = "light"
+    is_golden: bool = False
+
+
+def tab(browsers: Browsers, address: str, width: int = 1280, lang: str = "en") -> AbstractContextManager[Tab]:
+    """A page in a browser that asks nothing but its server; complaints fail the test."""
+    return tab_in(browsers, address, Window(width, lang=lang))
+
+
+@contextmanager
+def tab_in(browsers: Browsers, address: str, window: Window) -> Iterator[Tab]:
+    """The same in a window of any kind."""
+    contexts = browsers.of(window.is_golden)
+    settings = {"locale": LOCALES[window.lang], "accept_downloads": True, "color_scheme": window.scheme}
+    lent = contexts.lend(settings, window.width, window.height, "http://" + urlsplit(address).netloc)
     with ExitStack() as closing:
         closing.callback(lent.context.close)
         lent.context.set_default_timeout(WAIT_MS)

@@ -202,7 +202,11 @@ export function wireDrawing(around) {
     },
     /** Its number; empty where there is none. */
     number: () => number,
-    look,
+    /** Lay it beneath another program, which is drawn in place of the plan. */
+    look() {
+      isPlanning = isPlanning && !around.current().text.trim();
+      return look();
+    },
     /**
      * Another drawing.
      * @param {string} newNumber
