@@ -84,11 +84,14 @@ class Wanted(NamedTuple):
         How long they are where there is room; `USUAL_LEAD_UM` where None.
     spare_um
         How much nearer to its entry than to anything else a thread point lies.
+    has_leads
+        Whether there are any; else the wire begins on the contour.
     """
 
     reach_um: float
     lead_um: float | None
     spare_um: float
+    has_leads: bool = True
 
     @property
     def least_um(self) -> float:

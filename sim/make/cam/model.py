@@ -168,6 +168,11 @@ class CannotCutError(Exception):
         self.refusals = (refusal, *more) if all(each.figures for each in (refusal, *more)) else ()
 
 
+def refused(why: str, place_um: Floats, values: tuple[tuple[str, str], ...] = ()) -> CannotCutError:
+    """What to raise for thread points (k, 2) that cannot be."""
+    return CannotCutError(Refusal(why, tuple(Point(x, y) for x, y in place_um.tolist()), values))
+
+
 class Entry(NamedTuple):
     """Where the wire comes to a contour.
 

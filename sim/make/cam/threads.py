@@ -16,14 +16,15 @@ from controller.offset.chain import lines_between
 from parser.drawing.model import Drawing
 from parser.findings.catalogue import Remark
 from parser.geometry.curves import Bools, Floats, Ints, extents, is_inside
-from parser.geometry.distance import distance_to_curves, feet
+from parser.geometry.distance import distance_to_curves
 from parser.geometry.near import near_places
 from parser.toolpath import Point
 from parser.units import mm
-from sim.make.cam.chosen import Wanted, before_corners, begun_on, chosen, out_from
-from sim.make.cam.entries import MOST, Entries, EntryRequest, across_from, corners, corners_at, entries_at, nearest_of
+from sim.make.cam.chosen import Wanted, before_corners, begun_on, chosen
+from sim.make.cam.entered import entered, figures_at
+from sim.make.cam.entries import MOST, Entries, EntryRequest, across_from, corners, nearest_of
 from sim.make.cam.leads import TOLERANCE_UM, Room, are_free, nearest, room_of
-from sim.make.cam.model import CannotCutError, Entry, Figure, Refusal, Thread, ThreadedBy
+from sim.make.cam.model import CannotCutError, Entry, Figure, Refusal, Thread, ThreadedBy, refused
 from sim.make.cam.order import around
 from sim.setup.making import Making
 
@@ -158,11 +159,6 @@ def _free(
     return {int(entry_request.figure[whose[at]]): found.entry(room, at) for at in first.tolist()}
 
 
-def refused(why: str, place_um: Floats, values: tuple[tuple[str, str], ...] = ()) -> CannotCutError:
-    """What to raise for thread points (k, 2) that cannot be."""
-    return CannotCutError(Refusal(why, tuple(Point(x, y) for x, y in place_um.tolist()), values))
-
-
 _SAME_UM = 1.0
 
 
@@ -219,14 +215,15 @@ def threads_of(
     else:
         threads |= waste.threads_at(marks_of_layer(drawing, making.thread_layer), "marked", threads)
     threads = {**in_kerf, **threads}
-    entries = waste.entries(_whole(making.entries_um), in_kerf)
-    threads |= waste.entered(threads, entries, making)
+    demands = waste.demands(making)
+    places = figures_at(waste.room, _whole(making.entries_um), in_kerf)
+    threads |= entered(waste.room, waste.side, places, threads, demands)
     wanted = np.array([at for at in range(len(figures)) if at not in threads], dtype=np.int64)
-    if len(wanted) and (reach_um > 0.0 or making.lead_um is not None):
+    if len(wanted) and demands.has_leads:
         threads |= waste.chosen(wanted, making, threads)
     elif len(wanted):
         threads |= begun_on(waste.room, waste.side, wanted)
-    return waste.led(threads, making, frozenset(entries))
+    return waste.led(threads, making, frozenset(places))
 
 
 def thread_notes(figures: Sequence[Figure], threads: Sequence[Thread], making: Making) -> tuple[Remark, ...]:
@@ -323,7 +320,7 @@ class _Waste:
 
     def chosen(self, wanted: Ints, making: Making, taken: Mapping[int, Thread]) -> dict[int, Thread]:
         """Threads of the figures `wanted` at places in their waste, apart from those that are taken."""
-        demands = self._demands(making)
+        demands = self.demands(making)
         kept_um = np.array([each.place_um for each in taken.values()]).reshape(-1, 2)
         found = chosen(self.room, self.side, wanted, demands, kept_um)
         if making.lead == "point":
@@ -337,77 +334,10 @@ class _Waste:
             raise CannotCutError(Refusal("no-room", places[:_MOST_NUMBERS], values, numbers_of))
         return found
 
-    def entries(self, place_um: Floats, in_kerf: Mapping[int, Thread]) -> dict[int, Floats]:
-        """Places (m, 2) by the figures whose contours lie nearest.
-
-        CannotCutError where two are for one figure, or one for a figure that begins in the kerf of others.
-        """
-        figure = [self._nearest_figure(place) for place in place_um]
-        twice = np.array([figure.count(at) > 1 for at in figure], dtype=np.bool_)
-        if twice.any():
-            raise refused("enter-twice", place_um[twice])
-        kerf = np.array([at in in_kerf for at in figure], dtype=np.bool_)
-        if kerf.any():
-            raise refused("enter-in-kerf", place_um[kerf])
-        return dict(zip(figure, place_um, strict=True))
-
-    def _nearest_figure(self, place_um: Floats) -> int:
-        row = np.arange(len(self.room.figure))
-        foot = feet(self.room.curves, row, np.broadcast_to(place_um, (len(row), 2))).place_um
-        return int(self.room.figure[np.argmin(np.hypot(*(foot - place_um).T))])
-
-    def entered(
-        self, threads: Mapping[int, Thread], entries: Mapping[int, Floats], making: Making
-    ) -> dict[int, Thread]:
-        """Threads of the figures whose entries are asked for, near these places (2,).
-
-        From a thread point that stands the wire comes to its entry straight, another one is chosen across from it.
-        CannotCutError where that is not free.
-        """
-        if not entries:
-            return {}
-        request = EntryRequest(np.array(list(entries)), np.array(list(entries.values())), self.clear_um)
-        found = [find(self.room, self.side, request) for find in (corners_at, entries_at)]
-        standing = [self._are(each, threads) for each in found]
-        entered = dict[int, Thread]()
-        for each, stands in zip(found, standing, strict=True):
-            entered = self._from_threads(threads, each.take(np.flatnonzero(stands))) | entered
-        at_corners, left = (each.take(np.flatnonzero(~stands)) for each, stands in zip(found, standing, strict=True))
-        if self.reach_um > 0.0 or making.lead_um is not None:
-            kept_um = np.array([each.place_um for each in threads.values()]).reshape(-1, 2)
-            entered |= out_from(self.room, self.side, (at_corners, left), self._demands(making), kept_um)
-        else:
-            entered |= self._begun_on(left)
-        hidden = [at not in entered for at in entries]
-        if any(hidden):
-            raise refused("enter-hidden", request.place_um[hidden])
-        return entered
-
-    def _are(self, found: Entries, threads: Mapping[int, Thread]) -> Bools:
-        """(m,) whether the figures of entries are among those that have threads."""
-        return np.isin(self.room.figure[found.row], list(threads))
-
-    def _begun_on(self, found: Entries) -> dict[int, Thread]:
-        """Threads on contours, at their entries."""
-        begun = [found.entry(self.room, at) for at in range(len(found.row))]
-        places = [Point(*place) for place in _whole([each.place_um for each in begun]).tolist()]
-        return {
-            int(self.room.figure[row]): Thread(place, "contour", each)
-            for row, place, each in zip(found.row, places, begun, strict=True)
-        }
-
-    def _from_threads(self, threads: Mapping[int, Thread], found: Entries) -> dict[int, Thread]:
-        """Threads with other entries, those to which the straight way is free."""
-        figure = self.room.figure[found.row].tolist()
-        from_um = np.array([threads[at].place_um for at in figure]).reshape(-1, 2)
-        free = are_free(self.room, lines_between(from_um, found.begin_um), self.clear_um)
-        return {
-            figure[at]: threads[figure[at]]._replace(entry=found.entry(self.room, at))
-            for at in np.flatnonzero(free).tolist()
-        }
-
-    def _demands(self, making: Making) -> Wanted:
-        return Wanted(self.clear_um, making.lead_um, _SPARE_UM if making.lead in _ROUND else 0.0)
+    def demands(self, making: Making) -> Wanted:
+        """What is asked of leads."""
+        spare_um = _SPARE_UM if making.lead in _ROUND else 0.0
+        return Wanted(self.clear_um, making.lead_um, spare_um, self.reach_um > 0.0 or making.lead_um is not None)
 
     def _clear(self, place_um: Floats) -> Floats:
         """(m,) how far places lie from all contours, as far as it matters."""

@@ -16,6 +16,7 @@ from parser.shape.contours import find_contours
 from parser.shape.passes import find_passes, leads_of
 from parser.text.encoding import decode_text, encode_text, printable
 from parser.text.source import LINE_END
+from parser.toolpath import Toolpath
 from sim.base.units import numbers, rounded
 from sim.check.file_check import as_typed
 from sim.check.result import CheckResult
@@ -175,17 +176,22 @@ def _path(program: Program, offsets: Offsets, feeds: Feeds) -> PathEntry:
     That is when each block begins at the feeds alone, without accelerations and stops: a run tells it exactly.
     """
     path, source = program.toolpath, program.toolpath.source
-    passes = find_passes(path)
     took_s = path.length_um / np.where(path.is_jump, feeds.jump_um_s, feeds.cut_um_s)
     return {
         **exact_columns(path),
         "border_s": numbers(np.append(0.0, np.cumsum(took_s))),
-        "is_lead": (leads_of(passes, path) if passes.passes else np.zeros(len(path), dtype=np.bool_)).tolist(),
+        "is_lead": leads_shown(path),
         "line": source.line.tolist(),
         "first": [offsets.of(first) for first in source.span[:, 0].tolist()],
         "past": [offsets.of(past) for past in source.span[:, 1].tolist()],
         "name": source.names.of_rows(),
     }
+
+
+def leads_shown(path: Toolpath) -> list[bool]:
+    """Which of the n blocks of a path are drawn as leads: none where nothing is cut in passes."""
+    passes = find_passes(path)
+    return leads_of(passes, path).tolist() if passes.passes else [False] * len(path)
 
 
 def _figures(program: Program) -> list[FigureEntry]:

@@ -16,6 +16,7 @@ import sys
 import threading
 import time
 from collections.abc import AsyncIterator, Callable, Mapping, Sequence
+from pathlib import Path
 from queue import SimpleQueue
 from typing import Any, Final
 
@@ -64,6 +65,12 @@ def _queue_requests(requests: "SimpleQueue[PageRequest]") -> None:
     for line in sys.stdin.buffer:
         requests.put(json.loads(line))
     os._exit(0)
+
+
+def written(request: PageRequest, found: object) -> dict[str, Any]:
+    """Nothing to tell: what was found, which may be large, goes as JSON into the file that was asked for."""
+    Path(request["result_file"]).write_text(json.dumps(found), encoding="utf-8")
+    return {}
 
 
 def read_request() -> Any:

@@ -4,15 +4,13 @@ A drawing may be huge or hostile: its process can be ended at any moment. What i
 large.
 """
 
-import json
-from pathlib import Path
 from typing import Any, Final
 
 from parser.findings.catalogue import LANGUAGES, Bilingual, Language
 from sim.make.cam.maker import MadeProgram, made_program, remarked
 from sim.run.recording import stages_of
 from sim.serve.page.answers import file_text, printable_entry, read_file
-from sim.serve.page.child import PageRequest, do, telling
+from sim.serve.page.child import PageRequest, do, telling, written
 from sim.serve.page.making import asked_of, by_controls
 from sim.serve.page.model import DraftedEntry
 from sim.show.refusals import why_refused
@@ -30,7 +28,7 @@ def _make(request: PageRequest) -> dict[str, Any]:
     done = made_program(drawing, making, wanted, scenario, progress)
     if not isinstance(done, MadeProgram):
         why = printable_entry(by_controls(why_refused(done.refusal)))
-        return _written_answer(request, {"program": None, "told": [why], "verdict": "fail"})
+        return written(request, {"program": None, "told": [why], "verdict": "fail"})
     both_lines = zip(*(_summary(done, language) for language in LANGUAGES), strict=True)
     lines = [by_controls(Bilingual(*both)) for both in both_lines]
     data = done.data if done.is_proved else remarked(done, [*against(done, "en")], wanted).data
@@ -39,7 +37,7 @@ def _make(request: PageRequest) -> dict[str, Any]:
         "told": list(map(printable_entry, lines)),
         "verdict": done.verdict,
     }
-    return _written_answer(request, drafted)
+    return written(request, drafted)
 
 
 def _summary(done: MadeProgram, language: Language) -> list[str]:
@@ -50,12 +48,6 @@ def _summary(done: MadeProgram, language: Language) -> list[str]:
     checked = [*to_check(done.plan, language)]
     first = [*checked, *proved] if done.is_proved else [*proved, *checked]
     return [*first, *against(done, language), *todo, *told_lines(done.plan, language, _WIDE)]
-
-
-def _written_answer(request: PageRequest, found: DraftedEntry) -> dict[str, Any]:
-    """Nothing: what was found goes into the file that was asked for."""
-    Path(request["result_file"]).write_text(json.dumps(found), encoding="utf-8")
-    return {}
 
 
 if __name__ == "__main__":

@@ -5,10 +5,7 @@ process can be ended at any moment. What it found is a file of JSON, which may b
 """
 
 import json
-from pathlib import Path
 from typing import Any
-
-import numpy as np
 
 from parser.drawing.model import Drawing
 from parser.drawing.read import read_drawing
@@ -16,7 +13,6 @@ from parser.findings.catalogue import LANGUAGES, Bilingual, remark_text
 from parser.findings.errors import DrycutError
 from parser.program import load_program, moving
 from parser.shape.contours import runs
-from parser.shape.passes import find_passes, leads_of
 from parser.toolpath import Toolpath
 from parser.units import mm
 from sim.base.units import place
@@ -25,8 +21,8 @@ from sim.measure.compare.compare import compare_program
 from sim.measure.compare.result import FitRequest
 from sim.measure.compare.starts import IN_PLACE, Placement, placed
 from sim.run.prepare import as_run
-from sim.serve.page.answers import printable_entry
-from sim.serve.page.child import PageRequest, do_each
+from sim.serve.page.answers import leads_shown, printable_entry
+from sim.serve.page.child import PageRequest, do_each, written
 from sim.serve.page.form import scenario_of
 from sim.serve.page.making import asked_of, by_controls, target_of
 from sim.serve.page.model import LookedEntry, PlannedEntry, PlannedFigureEntry
@@ -56,7 +52,7 @@ def _look(request: PageRequest) -> dict[str, Any]:
         },
         "told": remarks,
     }
-    return _written(request, looked)
+    return written(request, looked)
 
 
 def _placement(request: PageRequest, drawing: Drawing, target: DrawingTarget) -> tuple[Placement, list[Bilingual]]:
@@ -84,13 +80,7 @@ def _plan(request: PageRequest) -> dict[str, Any]:
         entry = _entry(done, _laid(request["placement"]))
     else:
         entry = {"why": printable_entry(by_controls(why_refused(done.refusal)))}
-    return _written(request, entry)
-
-
-def _written(request: PageRequest, found: LookedEntry | PlannedEntry) -> dict[str, Any]:
-    """Nothing: what was found goes into the file that was asked for."""
-    Path(request["result_file"]).write_text(json.dumps(found), encoding="utf-8")
-    return {}
+    return written(request, entry)
 
 
 def _laid(text: str) -> Placement:
@@ -109,14 +99,12 @@ def _entry(done: MadeProgram, placement: Placement) -> PlannedEntry:
         for cut, (first, past) in zip(cuts, rows, strict=False)
         if len(rows) == len(cuts)
     ]
-    passes = find_passes(path)
-    is_lead = leads_of(passes, path) if passes.passes else np.zeros(len(path), dtype=np.bool_)
     length = f"{mm(float(path.length_um[~path.is_jump].sum())):.3f}"
     sum_ = bilingual("open.planned", figures=numbered({"figure": len(cuts)}), length=length)
     checked = zip(*(to_check(done.plan, language) for language in LANGUAGES), strict=True)
     return {
         "path": exact_columns(placed(path, placement)),
-        "is_lead": is_lead.tolist(),
+        "is_lead": leads_shown(path),
         "figures": figures,
         "told": [*map(printable_entry, [sum_, *(by_controls(Bilingual(*both)) for both in checked)])],
     }

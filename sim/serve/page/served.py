@@ -181,8 +181,8 @@ def serve(programs: Programs, port: int, ready: Callable[[str, Path], None]) -> 
         server = _Server(config)
         way = _way_to(address, folder)
         ends = [runs.end, drawings.end, programs.end]
-        begun = _Begun(lambda: ready(address.url, way), app.state.ahead)
-        asyncio.run(_run(server, listening, life, begun, ends))
+        opening = _Opening(lambda: ready(address.url, way), app.state.ahead)
+        asyncio.run(_run(server, listening, life, opening, ends))
 
 
 def _way_to(address: Address, folder: Path) -> Path:
@@ -193,7 +193,7 @@ def _way_to(address: Address, folder: Path) -> Path:
     return file
 
 
-class _Begun(NamedTuple):
+class _Opening(NamedTuple):
     """What is done once requests are answered: who waits for it is told, and work of the first page is done ahead."""
 
     ready: Callable[[], None]
@@ -204,15 +204,15 @@ async def _run(
     server: uvicorn.Server,
     listening: socket.socket,
     life: Life,
-    begun: "_Begun",
+    opening: "_Opening",
     ends: Sequence[Callable[[], Awaitable[None]]],
 ) -> None:
-    """Serve until the life is over; `begun` is done once requests are answered, `ends` end what was begun."""
+    """Serve until the life is over; `opening` is done once requests are answered, `ends` end what was begun."""
     serving = asyncio.create_task(server.serve(sockets=[listening]))
     while not server.started and not serving.done():
         await asyncio.sleep(0.01)
-    begun.ready()
-    ahead = asyncio.create_task(begun.ahead())
+    opening.ready()
+    ahead = asyncio.create_task(opening.ahead())
     while not life.is_over and not serving.done():
         await asyncio.sleep(_LOOK_S)
     await ahead

@@ -335,6 +335,16 @@ def test_a_cut_starts_on_the_place_across_from_its_thread_point_or_led_there_fro
     assert (outer.place_um, outer.by) == (Point(0, 15_000), "contour")
 
 
+def test_cuts_that_start_face_to_face_are_threaded_a_start_hole_apart() -> None:
+    """Both points would lie midway between the parts, 2 mm from each: one lead is shorter."""
+    pair = [figure(1, 1, 0, box(0, 0, 10_000, 10_000)), figure(2, 2, 0, box(14_000, 0, 10_000, 10_000))]
+    making = Making(entries_um=(Point(10_000, 5000), Point(14_000, 5000)))
+    found = threads_of(drawing(), pair, making, REACH_UM)
+    assert [thread.entry.place_um for thread in found] == [Point(10_000, 5000), Point(14_000, 5000)]
+    assert math.dist(*(thread.place_um for thread in found)) > 1000.0
+    assert_led_in_the_waste(pair, found)
+
+
 @pytest.mark.parametrize(
     ("making", "refused"),
     [
