@@ -12,6 +12,7 @@ import os
 import platform
 import sys
 import tempfile
+import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, Final
@@ -19,12 +20,16 @@ from typing import Any, Final
 import platformdirs
 
 from controller.compiled.machine_code import MachineCode, Shape
+from parser.locks import drop_lock, take_lock
 
 READY: Final = Path(__file__).with_name("ready")
 """The folder of the package's own entries, in packages that have some."""
 _SEAL: Final = hashlib.sha256().digest_size
 _LETTERS: Final = 16
 """Of the digest in the name of an entry."""
+_MOST_WAIT_S: Final = 60.0
+"""The longest loop takes some 10 s to compile; who holds the folder for longer has been stopped."""
+_PAUSE_S: Final = 0.02
 _LATEST: Final = 4
 """Entries of a loop that stay: of as many releases, or systems that share a home."""
 
@@ -67,6 +72,33 @@ def store(name: str, digest: str, code: MachineCode) -> None:
         path.parent.mkdir(parents=True, exist_ok=True)
         _write(path, hashlib.sha256(rest).digest() + rest)
         _clear(path.parent, name)
+
+
+@contextlib.contextmanager
+def alone() -> Iterator[None]:
+    """Wait until no other process compiles, `_MOST_WAIT_S` at most: of many that start first at once one compiles.
+
+    Nobody waits where the folder cannot be locked.
+    """
+    lock = _waited_for(folder())
+    try:
+        yield
+    finally:
+        drop_lock(lock)
+
+
+def _waited_for(entries_in: Path) -> int | None:
+    end_s = time.monotonic() + _MOST_WAIT_S
+    with contextlib.suppress(OSError):
+        entries_in.mkdir(parents=True, exist_ok=True)
+    while time.monotonic() < end_s:
+        try:
+            return take_lock(entries_in)
+        except BlockingIOError:
+            time.sleep(_PAUSE_S)
+        except OSError:
+            break
+    return None
 
 
 def _clear(entries_in: Path, name: str) -> None:

@@ -73,12 +73,17 @@ class Loop:
             return self._code
 
     def _machine_code(self) -> "MachineCode":
-        from controller.compiled.entries import store, stored  # noqa: PLC0415 - loaded with the machine code
+        from controller.compiled.entries import alone, store, stored  # noqa: PLC0415 - loaded with the machine code
 
-        if (code := stored(self.name, self.digest)) is None:
-            compiling()
-            code = _made_of(self)
-            store(self.name, self.digest, code)
+        code = stored(self.name, self.digest)
+        if code is not None:
+            return code
+        compiling()
+        with alone():
+            code = stored(self.name, self.digest)  # another process may have made it meanwhile
+            if code is None:
+                code = _made_of(self)
+                store(self.name, self.digest, code)
         return code
 
 

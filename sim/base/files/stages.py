@@ -2,8 +2,6 @@
 
 Output files of a run: made aside and put in their folder as one set, or not at all.
 
-Locks on folders, which the system ends with the process that holds them, however that ends.
-
 A file of the user's with new content: whole or not at all, and with all else as it was.
 """
 
@@ -22,54 +20,12 @@ from functools import cache
 from pathlib import Path
 
 from parser.findings.errors import FileUnreadableError, Message, system_message
+from parser.locks import drop_lock, take_lock
 from sim.base.files.swap import finish, swap
 
 MOST_WAIT_S = 30.0
 """A swap takes milliseconds; who holds a folder for longer has been stopped."""
 _PAUSE_S = 0.002
-
-if sys.platform == "win32":
-    import msvcrt
-
-    def _locked(folder: Path) -> int:
-        """Windows opens no folder: a file in it stands for it, which goes when it is closed."""
-        try:
-            file = os.open(folder / ".drycut-lock", os.O_RDWR | os.O_CREAT | os.O_TEMPORARY)
-        except PermissionError as error:  # another process is just closing it
-            raise BlockingIOError(*error.args) from None
-        try:
-            msvcrt.locking(file, msvcrt.LK_NBLCK, 1)
-        except OSError as error:
-            os.close(file)
-            raise BlockingIOError(*error.args) from None
-        return file
-
-else:
-    import fcntl
-
-    def _locked(folder: Path) -> int:
-        file = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
-        try:
-            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except OSError:
-            os.close(file)
-            raise
-        return file
-
-
-def take_lock(folder: Path) -> int:
-    """Lock a folder; what `drop_lock` takes.
-
-    BlockingIOError where another process has locked it, or this one has; another OSError where the folder is not there,
-    or its file system knows no locks.
-    """
-    return _locked(folder)
-
-
-def drop_lock(lock: int | None) -> None:
-    """Unlock what `take_lock` locked; nothing where there is no lock."""
-    if lock is not None:
-        os.close(lock)
 
 
 @contextmanager

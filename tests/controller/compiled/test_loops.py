@@ -68,6 +68,28 @@ def test_a_loop_is_compiled_once_and_told_of_once(loops: Path) -> None:
     assert printed(loops, cache) == ["10.0"]
 
 
+def test_of_many_that_start_first_at_once_one_compiles(loops: Path) -> None:
+    (loops / "outer.py").write_text(f"{OUTER}\nimport sys\nprint('numba' in sys.modules)\n")
+    environment = {**os.environ, "NUMBA_CACHE_DIR": str(loops / "cache"), "PYTHONPATH": f"{ROOT}{os.pathsep}{loops}"}
+    command = [sys.executable, str(loops / "outer.py")]
+    running = [subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, text=True) for _ in range(3)]
+    said = [process.communicate(timeout=120)[0].split() for process in running]
+    assert [process.returncode for process in running] == [0, 0, 0]
+    assert [each[-2] for each in said] == ["10.0"] * 3
+    assert sorted(each[-1] for each in said) == ["False", "False", "True"]
+
+
+def test_who_holds_the_folder_for_long_keeps_nobody_waiting(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
+    monkeypatch.setattr(entries, "_MOST_WAIT_S", 0.05)
+    with entries.alone(), entries.alone():
+        store("a.loop", "0", MachineCode("a", (), Shape("none"), b"code"))
+    assert stored("a.loop", "0") is not None
+    monkeypatch.setenv("NUMBA_CACHE_DIR", os.devnull)
+    with entries.alone():
+        assert stored("a.loop", "0") is None
+
+
 @pytest.mark.deeper
 def test_a_loop_is_compiled_again_when_a_loop_that_it_calls_has_changed(loops: Path) -> None:
     cache = loops / "cache"

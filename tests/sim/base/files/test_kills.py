@@ -17,6 +17,7 @@ from command import HANGUP, run_inside
 from places import ROOT
 from swaps import NAMES, NEW, OLD, found, left, write
 
+from parser import locks
 from parser.findings.errors import FileUnreadableError
 from sim.base.files import replace_file, scratch, staged, stages
 
@@ -77,7 +78,7 @@ def test_a_file_system_without_locks_is_written_too(tmp_path: Path, monkeypatch:
     def lacking(folder: Path) -> int:
         raise OSError(38, "Function not implemented")
 
-    monkeypatch.setattr(stages, "_locked", lacking)
+    monkeypatch.setattr(locks, "_locked", lacking)
     write(tmp_path, OLD)
     write(tmp_path, NEW)
     assert (found(tmp_path), left(tmp_path)) == (NEW, [])
