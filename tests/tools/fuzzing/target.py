@@ -48,7 +48,7 @@ class Target(NamedTuple):
     judge: Callable[[Input, int, Path], Judged]
     share: float
     most_s: float = 2.0
-    most_mb: float = 300.0
+    most_mb: float = 200.0
 
     def input(self, seed: int, number: int) -> Input:
         """The input of a number."""
