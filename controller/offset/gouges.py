@@ -12,8 +12,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.offset.reach import groups
 from controller.offset.shifted import Side
+from controller.offset.slices import groups
 from parser.geometry.along import along_um, directions, headings_along, places_at, to_left
 from parser.geometry.curves import Bools, Curves, Floats, Ints, curves_between, joined
 from parser.geometry.distance import by_xy, curves_meet, distance_to_curves

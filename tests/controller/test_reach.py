@@ -342,3 +342,26 @@ def test_the_loop_names_the_blocks_that_it_comes_from_in_the_contours_order() ->
 
 def is_in_order(loop: OffsetLoop) -> bool:
     return bool(np.all(np.diff(loop.source_row) >= 0))
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_contours_alike_but_for_their_place_have_loops_alike_but_for_their_place(seed: int) -> None:
+    """As exactly as a loop keeps its distance, in whatever order they come; one 0.01 µm larger is another contour."""
+    rng = random.Random(seed)
+    shapes = [random_case(rng) for _ in range(4)]
+    for _ in range(12):
+        shape, f, inside = rng.choice(shapes)
+        contour, side = contour_of(shape), Side.LEFT if inside else Side.RIGHT
+        by_um, larger = np.array([rng.uniform(-1e6, 1e6), rng.uniform(-1e6, 1e6)]), 1.0 + 1e-2 / contour.length_um.max()
+        there = replace(
+            contour, **{name: getattr(contour, name) + by_um for name in ("start_um", "end_um", "center_um")}
+        )
+        grown = {name: getattr(there, name) * larger for name in ("start_um", "end_um", "center_um", "radius_um")}
+        other = replace(there, **grown, length_um=there.length_um * larger)
+        for moved in (there, other):
+            reached = reach(moved, f, side)
+            if moved is there:
+                assert [len(loop.curves) for loop in reached.loops] == [
+                    len(loop.curves) for loop in reach(contour, f, side).loops
+                ]
+            assert farthest_from_offset(moved, reached, f) < EXACT_UM
