@@ -1,13 +1,15 @@
-"""Bands: the union of the discs about the places of a straight stretch of the wire's way, as a polygon.
+"""Bands: the union of the discs about the places of an even stretch of the wire's way, straight or bent, as a polygon.
 
-Across the way, every line through the union meets it in one piece: where the places lie so nearly on a line that each
-disc overlaps the next on every such line, it runs from the lowest border of the discs that it meets to the highest. A
-disc of radius r about a place (u, v) along and across the way reaches from v − √(r² − (s − u)²) to v + √(…) at s. So a
-band is known in closed form, as a star is, and may be as long as the way is straight: a straight block of 30 mm takes
-some ten bands where it takes 160 stars, and the union of few regions is made in a tenth of the time.
+Seen across the way, from the one end to the other, the border on either side is an envelope of circles of one radius:
+two of them change places once, where they cross. So each disc in its turn hides those before it from where it crosses
+them; a disc that is hidden from before it begins has no share in the border. Across a straight way all look the same
+way; across an arc they look from its centre. What is left are arcs from one crossing to the next, known in closed form.
 
-At its ends, two discs side by side leave a notch that a band fills: of places no farther apart than 2 µm across the way
-it is (1 µm)² / 2r deep, 0.005 µm of a wire that cuts 0.2 mm wide.
+A band may be as long as the way is even: a straight block of 30 mm takes some ten bands where it takes 160 stars, a
+circle of 6 mm six where it takes 100, and the union of few regions is made in a tenth of the time.
+
+At its ends, two discs side by side leave a notch that a band fills: of places no farther apart than 4 µm across the way
+it is (2 µm)² / 2r deep, 0.02 µm of a wire that cuts 0.2 mm wide.
 """
 
 import math
@@ -17,255 +19,332 @@ import numpy as np
 import shapely
 
 from controller.compiled.loops import compiled, loop_part
-from parser.geometry.curves import Bools, Floats, Ints
+from parser.geometry.curves import Bools, Curves, Floats, Ints
 from sim.cut.kerf.stars import SIMPLER_UM, thin, thinning_room
 from sim.cut.kerf.ways import spacing_um
 from sim.cut.regions import Regions
 
-_ACROSS_UM: Final = 2.0
+_ACROSS_UM: Final = 4.0
+"""How far apart places of a stretch may lie across it: as far as backlash moves the wire where an axis turns."""
 _BACK_UM: Final = 1.0
 """How far the wire may go back along a stretch: a step."""
-_IN_A_NOTCH: Final = 7
-"""Stations that are added between two, so that a notch is known as well as the scallops between discs."""
 
 
-def are_straight(place_um: Floats, first: Ints) -> Bools:
-    """Which stretches (s,) of a way can be bands; `first` (s,) are the indices of places (m, 2) at which they begin."""
+_TIGHTEST: Final = 3.0
+"""Offsets: radius of the tightest arc that has bands. A ray from its centre passes no disc near its end then."""
+_TURN_RAD: Final = 1.5
+"""Of a band along an arc, at most: far less than half a turn, so that angles about its centre are in order."""
+
+
+def bends_of(curves: Curves) -> Floats:
+    """Centre and radius (n, 3) of the arc of each row, the radius below 0 where it is clockwise; zeros of lines."""
+    bend = np.zeros((len(curves), 3))
+    is_arc = curves.is_arc
+    bend[is_arc, :2] = curves.center_um[is_arc]
+    bend[is_arc, 2] = np.copysign(curves.radius_um[is_arc], curves.sweep_rad[is_arc])
+    return bend
+
+
+def longest_bands_um(bend: Floats, longest_um: float, offset_um: float) -> Floats:
+    """Longest band (n,) along each of some arcs and lines, but `longest_um`; 0 of arcs that are too tight."""
+    radius = np.abs(bend[:, 2])
+    of_arcs = np.where(radius < _TIGHTEST * offset_um, 0.0, np.minimum(longest_um, _TURN_RAD * radius))
+    longest: Floats = np.where(radius > 0.0, of_arcs, longest_um)
+    return longest
+
+
+def are_even(place_um: Floats, first: Ints, bend: Floats) -> Bools:
+    """Which stretches (s,) of a way can be bands; `first` (s,) are the indices of places (m, 2) at which they begin.
+
+    `bend` (s, 3) are centre and radius of the arc that each follows, as `bends_of` has them.
+    """
     last = np.append(first[1:], len(place_um)) - 1
     own = np.repeat(np.arange(len(first)), last - first + 1)
-    by = place_um[last] - place_um[first]
+    is_arc = bend[:, 2] != 0.0
+    origin = np.where(is_arc[:, None], bend[:, :2], place_um[first])
+    by = np.where(is_arc[:, None], place_um[first], place_um[last]) - origin
     length = np.hypot(by[:, 0], by[:, 1])
     toward = by / np.where(length > 0.0, length, 1.0)[:, None]
-    out = place_um - place_um[first][own]
+    out = place_um - origin[own]
     along = (out * toward[own]).sum(axis=1)
     across = toward[own, 0] * out[:, 1] - toward[own, 1] * out[:, 0]
+    bent = is_arc[own]
+    along[bent], across[bent] = (
+        bend[own[bent], 2] * np.arctan2(across[bent], along[bent]),
+        np.hypot(along[bent], across[bent]),
+    )
     spread = np.maximum.reduceat(across, first) - np.minimum.reduceat(across, first)
-    apart = own * (2.0 * (float(length.max()) + _BACK_UM))  # each stretch lies ahead of those before it
+    farthest = float(np.abs(along).max())
+    apart = own * (2.0 * (farthest + _BACK_UM))  # each stretch lies ahead of those before it
     back = np.maximum.reduceat(np.maximum.accumulate(along + apart) - (along + apart), first)
-    is_straight: Bools = (length > 0.0) & (spread <= _ACROSS_UM) & (back <= _BACK_UM)
-    return is_straight
+    is_even: Bools = (length > 0.0) & (spread <= _ACROSS_UM) & (back <= _BACK_UM)
+    return is_even
 
 
-def bands(place_um: Floats, bounds: Ints, offset_um: float) -> Regions:
-    """Union of the discs of each of s stretches, (s,), which must be straight (`are_straight`).
+def bands(place_um: Floats, bounds: Ints, bend: Floats, offset_um: float) -> Regions:
+    """Union of the discs of each of s stretches, (s,), which must be even (`are_even`).
 
-    `bounds` (s, 2) are the indices of the places (m, 2) at which they begin, and one past their last.
+    `bounds` (s, 2) are the indices of the places (m, 2) at which they begin, and one past their last; `bend` (s, 3) are
+    centre and radius of the arcs that they follow.
     """
-    places, spacing = np.ascontiguousarray(place_um), spacing_um(offset_um)
+    places, bends = np.ascontiguousarray(place_um), np.ascontiguousarray(bend)
     made: Regions = np.empty(len(bounds), dtype=np.object_)
     if len(bounds):
-        quarter = max(math.ceil(0.5 * math.pi * offset_um / spacing), 1)
-        room = _room(int(np.diff(bounds).max()), quarter)
+        spacing = spacing_um(offset_um)
+        room = _room(int(np.diff(bounds).max()), math.ceil(offset_um / spacing))
         for at, (low, high) in enumerate(bounds.tolist()):
-            corners = _band(places[low:high], offset_um, spacing, quarter, (*room,))
+            corners = _band(places[low:high], bends[at], (offset_um, spacing), (*room,))
             made[at] = shapely.Polygon(room.corner[:corners])
     return made
 
 
 class _Room(NamedTuple):
-    """Room for one band, of m places at most, and of k stations.
+    """Room for one band, of m places at most, and of k corners.
 
     Attributes
     ----------
     way
-        (m, 2) its places, along and across.
-    abreast, station
-        (k,) where the border is worked out along the way: abreast of places and in notches, then round the ends too.
-    between, off
-        (k,) places between stations, and how far the border is from the chord there at most.
-    border, other
-        (k, 2) lowest and highest border at stations, and at places between them.
+        (m, 2) its places: along and across a straight way; on an arc seen from its centre, the middle one at (x, 0).
+    order
+        (m + 2,) their indices in order along the way, and of the discs that reach farthest back and ahead, at the ends.
+    seen
+        (m + 2,) indices of the discs of one side's border, in order.
+    crossing
+        (m + 2, 2) where each of them begins.
     ring, corner
-        (2 k + 2, 2) corners of the band, along and across, and (2 k + 3, 2) those that are kept, as places.
+        (k, 2) corners of the band, as `way` has places, and (k + 1, 2) those that are kept, as places.
     is_kept, waiting
-        As `thin` has them, of 2 k + 2 corners.
+        As `thin` has them.
     """
 
     way: Floats
-    abreast: Floats
-    station: Floats
-    between: Floats
-    off: Floats
-    border: Floats
-    other: Floats
+    order: Ints
+    seen: Ints
+    crossing: Floats
     ring: Floats
     corner: Floats
     is_kept: Bools
     waiting: Ints
 
 
-def _room(places: int, quarter: int) -> _Room:
-    """Room for a band of so many places, whose ends have so many stations a quarter."""
-    k = places + _IN_A_NOTCH * (places - 1) + 2 * quarter
-    is_kept, waiting = thinning_room(2 * k + 2)
+def _room(places: int, radius: int) -> _Room:
+    """Room for a band of so many places, of discs whose radius is so many spacings.
+
+    A side is as long as the way, a third longer outside of a tight arc, and goes up and down by the spread of places at
+    each disc at most: some 13 corners a disc where discs are small and lie as far apart as they may.
+    """
+    k = 2 * (16 * places + 16 * radius + 16)
+    is_kept, waiting = thinning_room(k)
     return _Room(
         way=np.empty((places, 2)),
-        abreast=np.empty(k),
-        station=np.empty(k),
-        between=np.empty(k),
-        off=np.empty(k),
-        border=np.empty((k, 2)),
-        other=np.empty((k, 2)),
-        ring=np.empty((2 * k + 2, 2)),
-        corner=np.empty((2 * k + 3, 2)),
+        order=np.empty(places + 2, dtype=np.int64),
+        seen=np.empty(places + 2, dtype=np.int64),
+        crossing=np.empty((places + 2, 2)),
+        ring=np.empty((k, 2)),
+        corner=np.empty((k + 1, 2)),
         is_kept=is_kept,
         waiting=waiting,
     )
 
 
-@loop_part("Tuple((f8, f8))(f8[:,::1], i8, i8, f8, f8)")
-def _section(way: Floats, low: int, high: int, offset: float, at: float) -> tuple[float, float]:
-    """Lowest and highest border at a place along the way, of the discs about some places (u, v)."""
-    lowest, highest = np.inf, -np.inf
-    for p in range(low, high):
-        ahead = at - way[p, 0]
-        square = offset * offset - ahead * ahead
-        if square >= 0.0:
-            half = np.sqrt(square)
-            lowest, highest = min(lowest, way[p, 1] - half), max(highest, way[p, 1] + half)
-    return lowest, highest
+_ROOM: Final = "Tuple((f8[:,::1], i8[::1], i8[::1], f8[:,::1], f8[:,::1], f8[:,::1], b1[::1], i8[:,::1]))"
+_SHORT: Final = 1.05
+"""Spacings: of a shorter arc the middle stands for all."""
 
 
-@loop_part("void(f8[:,::1], f8[::1], f8, f8, f8[:,::1])")
-def _sections(way: Floats, stations: Floats, offset: float, window: float, border: Floats) -> None:
-    """Fill in lowest and highest border (k, 2) at stations in order, of discs about places (u, v).
+@loop_part("UniTuple(f8, 5)(f8[:,::1], f8[::1], f8[:,::1])")
+def _lay(place: Floats, bend: Floats, way: Floats) -> tuple[float, float, float, float, float]:
+    """Fill in places (m, 2) as `_Room` has them; gives its origin, the direction of its first axis, and which turn.
 
-    The places go back along the way by a step. Between its ends no disc farther off than `window` is the highest or
-    lowest.
+    The turn is 1 where the second axis lies to the left of the first, and −1 where it lies to the right.
     """
-    m = way.shape[0]
-    begin, end = np.inf, -np.inf
-    for p in range(m):
-        begin, end = min(begin, way[p, 0]), max(end, way[p, 0])
-    low = 0
-    for k in range(len(stations)):
-        at = stations[k]
-        is_between = begin <= at <= end
-        reach = window if is_between else offset
-        while is_between and low < m - 1 and way[low, 0] < at - reach - _BACK_UM:
-            low += 1
-        high = low
-        while high < m and way[high, 0] <= at + reach + _BACK_UM:
-            high += 1
-        border[k, 0], border[k, 1] = _section(way, 0 if at < begin else low, high, offset, at)
-
-
-_COLUMNS: Final = "f8[:,::1], f8[::1], f8[::1], f8[::1], f8[::1], f8[:,::1], f8[:,::1], f8[:,::1], f8[:,::1]"
-_ROOM: Final = f"Tuple(({_COLUMNS}, b1[::1], i8[:,::1]))"
-
-
-@loop_part("i8(f8[:,::1], f8[::1], UniTuple(f8, 2), Tuple((f8[::1], f8[::1])), Tuple((f8[:,::1], f8[:,::1])), f8[::1])")
-def _with_notches(  # noqa: PLR0913, PLR0917 - a compiled loop takes the columns that it fills one by one
-    way: Floats,
-    sorted_: Floats,
-    reach: tuple[float, float],
-    columns: tuple[Floats, Floats],
-    borders: tuple[Floats, Floats],
-    stations: Floats,
-) -> int:
-    """Fill in the stations: those that are sorted, and more where the border between two leaves their chord.
-
-    There it does so by more than even discs do: it has a notch between discs that lie apart, as those between them are
-    lower. `reach` are offset and window. Gives the number of stations.
-    """
-    (offset, window), (between, off), (border, other) = reach, columns, borders
-    gaps = len(sorted_) - 1
-    _sections(way, sorted_, offset, window, border)
-    for k in range(gaps):
-        off[k] = 0.0
-    for share in (0.25, 0.5, 0.75):
-        for k in range(gaps):
-            between[k] = sorted_[k] + share * (sorted_[k + 1] - sorted_[k])
-        _sections(way, between[:gaps], offset, window, other)
-        for k in range(gaps):
-            for side in range(2):
-                chord = border[k, side] + share * (border[k + 1, side] - border[k, side])
-                off[k] = max(off[k], abs(other[k, side] - chord))
-    made = 0
-    for k in range(gaps + 1):
-        stations[made] = sorted_[k]
-        made += 1
-        gap = sorted_[k + 1] - sorted_[k] if k < gaps else 0.0
-        if k < gaps and off[k] > gap * gap / (8.0 * offset) + 0.5 * SIMPLER_UM:
-            for part in range(1, _IN_A_NOTCH + 1):
-                stations[made] = sorted_[k] + gap * part / (_IN_A_NOTCH + 1)
-                made += 1
-    return made
-
-
-@loop_part("UniTuple(f8, 2)(f8[:,::1], f8[:,::1])")
-def _lay(place: Floats, way: Floats) -> tuple[float, float]:
-    """Fill in places (m, 2) along and across the line from the first to the last; gives its direction."""
     m = place.shape[0]
-    by_x, by_y = place[m - 1, 0] - place[0, 0], place[m - 1, 1] - place[0, 1]
+    radius, turn = abs(bend[2]), -1.0 if bend[2] < 0.0 else 1.0
+    if radius > 0.0:
+        from_x, from_y = bend[0], bend[1]
+        by_x, by_y = place[m // 2, 0] - from_x, place[m // 2, 1] - from_y
+    else:
+        from_x, from_y = place[0, 0], place[0, 1]
+        by_x, by_y = place[m - 1, 0] - from_x, place[m - 1, 1] - from_y
     length = np.sqrt(by_x * by_x + by_y * by_y)
     toward_x, toward_y = by_x / length, by_y / length
     for p in range(m):
-        out_x, out_y = place[p, 0] - place[0, 0], place[p, 1] - place[0, 1]
+        out_x, out_y = place[p, 0] - from_x, place[p, 1] - from_y
         way[p, 0] = out_x * toward_x + out_y * toward_y
-        way[p, 1] = toward_x * out_y - toward_y * out_x
-    return toward_x, toward_y
+        way[p, 1] = turn * (toward_x * out_y - toward_y * out_x)
+    return from_x, from_y, toward_x, toward_y, turn
 
 
-@loop_part("void(f8[:,::1], f8[::1])")
-def _sort_along(way: Floats, sorted_: Floats) -> None:
-    """Fill in where places (m, 2) lie along the way, in order: they are so already but for steps back."""
-    for p in range(way.shape[0]):
-        at = p
-        while at > 0 and sorted_[at - 1] > way[p, 0]:
-            sorted_[at] = sorted_[at - 1]
+@loop_part("f8(f8, f8, b1)")
+def _along(x: float, y: float, is_arc: bool) -> float:
+    """What grows along the way: on an arc the tangent of the angle about its centre, which is below a right angle."""
+    return y / x if is_arc else x
+
+
+@loop_part("UniTuple(f8, 2)(f8[:,::1], i8, f8, f8, b1)")
+def _tip(way: Floats, p: int, offset: float, ahead: float, is_arc: bool) -> tuple[float, float]:
+    """Where the disc about a place ends, seen across the way: ahead 1, or back −1."""
+    x, y = way[p, 0], way[p, 1]
+    if not is_arc:
+        return x + ahead * offset, y
+    # The ray from the origin that only just meets the disc: its foot lies an offset off the middle, across the ray.
+    square = x * x + y * y
+    share, aside = 1.0 - offset * offset / square, offset * np.sqrt(square - offset * offset) / square
+    return share * x - ahead * aside * y, share * y + ahead * aside * x
+
+
+@loop_part("void(f8[:,::1], f8, b1, i8[::1])")
+def _sort_along(way: Floats, offset: float, is_arc: bool, order: Ints) -> None:
+    """Fill in the order of places (m, 2) as `_Room` has it: they are in order already but for steps back.
+
+    Seen from the centre of an arc, the disc that reaches farthest back need not be the first one.
+    """
+    m = way.shape[0]
+    back, ahead = 0, 0
+    farthest_back, farthest = np.inf, -np.inf
+    for p in range(m):
+        at, own = p + 1, _along(way[p, 0], way[p, 1], is_arc)
+        while at > 1 and _along(way[order[at - 1], 0], way[order[at - 1], 1], is_arc) > own:
+            order[at] = order[at - 1]
             at -= 1
-        sorted_[at] = way[p, 0]
+        order[at] = p
+        begin_x, begin_y = _tip(way, p, offset, -1.0, is_arc)
+        end_x, end_y = _tip(way, p, offset, 1.0, is_arc)
+        begin, end = _along(begin_x, begin_y, is_arc), _along(end_x, end_y, is_arc)
+        back, farthest_back = (p, begin) if begin < farthest_back else (back, farthest_back)
+        ahead, farthest = (p, end) if end > farthest else (ahead, farthest)
+    order[0], order[m + 1] = back, ahead
 
 
-@loop_part("f8(f8[:,::1], f8, f8)")
-def _window(way: Floats, offset: float, spacing: float) -> float:
-    """How far along the way a disc may be the highest or lowest: farther off, the nearest one reaches farther."""
-    lowest, highest = np.inf, -np.inf
-    for p in range(way.shape[0]):
-        lowest, highest = min(lowest, way[p, 1]), max(highest, way[p, 1])
-    near = offset - np.sqrt(max(offset * offset - spacing * spacing, 0.0)) + highest - lowest
-    return float(np.sqrt(offset * offset - max(offset - near, 0.0) ** 2) + spacing)
+@loop_part("UniTuple(f8, 2)(f8[:,::1], i8, i8, f8, f8)")
+def _crossing(way: Floats, this: int, other: int, offset: float, left: float) -> tuple[float, float]:
+    """Where the circles about two places cross: to the left of the way from the one to the other, or to the right."""
+    by_x, by_y = way[other, 0] - way[this, 0], way[other, 1] - way[this, 1]
+    square = by_x * by_x + by_y * by_y
+    share = left * np.sqrt(max(offset * offset / square - 0.25, 0.0))
+    return 0.5 * (way[this, 0] + way[other, 0]) - share * by_y, 0.5 * (way[this, 1] + way[other, 1]) + share * by_x
 
 
-@compiled(f"i8(f8[:,::1], f8, f8, i8, {_ROOM})")
-def _band(place: Floats, offset: float, spacing: float, quarter: int, room: tuple[Any, ...]) -> int:
+@loop_part("b1(f8[:,::1], i8, UniTuple(f8, 2), f8, b1)")
+def _is_hidden(way: Floats, p: int, crossing: tuple[float, float], offset: float, is_arc: bool) -> bool:
+    """Whether the disc about a place would be seen only from behind its end on."""
+    begins = _along(crossing[0], crossing[1], is_arc)
+    if begins <= _along(way[p, 0], way[p, 1], is_arc):
+        return False
+    end_x, end_y = _tip(way, p, offset, 1.0, is_arc)
+    return bool(begins >= _along(end_x, end_y, is_arc))
+
+
+@loop_part("i8(f8[:,::1], i8[::1], Tuple((b1, f8, f8)), i8[::1], f8[:,::1])")
+def _envelope(way: Floats, order: Ints, looks: tuple[bool, float, float], seen: Ints, crossing: Floats) -> int:
+    """Fill in which discs are seen from a side, and where each begins; gives their number.
+
+    `looks` are whether the way is an arc, the offset, and 1 for the left side, −1 for the right one.
+    """
+    is_arc, offset, left = looks
+    number = 0
+    for p in order:
+        x, y = _tip(way, p, offset, -1.0, is_arc)
+        is_seen = True
+        while number > 0:
+            before = seen[number - 1]
+            is_seen = way[p, 0] != way[before, 0] or way[p, 1] != way[before, 1]
+            if not is_seen:
+                break
+            x, y = _crossing(way, before, p, offset, left)
+            if _along(x, y, is_arc) > _along(crossing[number - 1, 0], crossing[number - 1, 1], is_arc):
+                is_seen = not _is_hidden(way, p, (x, y), offset, is_arc)
+                break
+            number -= 1
+            x, y = _tip(way, p, offset, -1.0, is_arc)
+        if is_seen:
+            seen[number], crossing[number, 0], crossing[number, 1] = p, x, y
+            number += 1
+    return number
+
+
+@loop_part("f8(f8[:,::1], i8, UniTuple(f8, 4), f8)")
+def _turned(way: Floats, p: int, ends: tuple[float, float, float, float], turn: float) -> float:
+    """Angle of the arc about a place from end to end: `turn` is 1 where it turns to the left, −1 where to the right."""
+    out_x, out_y = ends[0] - way[p, 0], ends[1] - way[p, 1]
+    to_x, to_y = ends[2] - way[p, 0], ends[3] - way[p, 1]
+    return float(max(np.arctan2(turn * (out_x * to_y - out_y * to_x), out_x * to_x + out_y * to_y), 0.0))
+
+
+@loop_part("i8(f8[:,::1], i8, Tuple((f8, f8, f8, i8)), f8[:,::1], i8)")
+def _arc(way: Floats, p: int, arc: tuple[float, float, float, int], ring: Floats, made: int) -> int:
+    """Fill in corners of the arc about a place but its ends; gives how many there are then.
+
+    `arc` are where it begins, its angle, above 0 to the left, and in how many equal parts it is divided.
+    """
+    begin_x, begin_y, angle, parts = arc
+    out_x, out_y = begin_x - way[p, 0], begin_y - way[p, 1]
+    cosine, sine = np.cos(angle / parts), np.sin(angle / parts)
+    for _ in range(parts - 1):
+        out_x, out_y = out_x * cosine - out_y * sine, out_x * sine + out_y * cosine
+        ring[made, 0], ring[made, 1] = way[p, 0] + out_x, way[p, 1] + out_y
+        made += 1
+    return made
+
+
+@loop_part("i8(f8[:,::1], Tuple((i8[::1], f8[:,::1], i8)), Tuple((b1, f8, f8)), f8, Tuple((f8[:,::1], i8)))")
+def _side(
+    way: Floats,
+    border: tuple[Ints, Floats, int],
+    looks: tuple[bool, float, float],
+    spacing: float,
+    made_ring: tuple[Floats, int],
+) -> int:
+    """Fill in the corners of one side, from tip to tip; gives how many the ring has then.
+
+    The middle of a short arc stands for all of it: where discs side by side cross between such arcs, the floor of the
+    scallop is no corner, as even discs leave it as well.
+    """
+    (seen, crossing, number), (is_arc, offset, left), (ring, made) = border, looks, made_ring
+    begin_x, begin_y, before, parts_before = crossing[0, 0], crossing[0, 1], seen[0], 3
+    for k in range(number):
+        p, is_last = seen[k], k + 1 == number
+        end_x, end_y = _tip(way, p, offset, 1.0, is_arc) if is_last else (crossing[k + 1, 0], crossing[k + 1, 1])
+        angle = _turned(way, p, (begin_x, begin_y, end_x, end_y), -left)
+        parts = max(int(np.ceil(angle * offset / (_SHORT * spacing))), 2)
+        apart = np.sqrt((way[p, 0] - way[before, 0]) ** 2 + (way[p, 1] - way[before, 1]) ** 2)
+        if max(parts, parts_before) > 2 or apart > _SHORT * spacing:
+            ring[made, 0], ring[made, 1] = begin_x, begin_y
+            made += 1
+        made = _arc(way, p, (begin_x, begin_y, -left * angle, parts), ring, made)
+        begin_x, begin_y, before, parts_before = end_x, end_y, p, parts
+    ring[made, 0], ring[made, 1] = begin_x, begin_y
+    return made + 1
+
+
+@compiled(f"i8(f8[:,::1], f8[::1], UniTuple(f8, 2), {_ROOM})")
+def _band(place: Floats, bend: Floats, disc: tuple[float, float], room: tuple[Any, ...]) -> int:
     """Fill in the corners of the band of the places (m, 2) of one stretch, as a closed ring; gives their number.
 
-    Places along it lie so far apart at most; `room` is that of `_Room`.
+    `bend` (3,) are centre and radius of its arc; `disc` are the offset, and how far apart places lie at most; `room` is
+    that of `_Room`.
     """
-    way, abreast, station, between, off, border, other, ring, corner, is_kept, waiting = room
-    m = place.shape[0]
-    way = way[:m]
-    toward_x, toward_y = _lay(place, way)
-    begin, end = 0, 0
-    for p in range(m):
-        begin = p if way[p, 0] < way[begin, 0] else begin
-        end = p if way[p, 0] > way[end, 0] else end
-    window = _window(way, offset, spacing)
-    # Abreast of a place the border lies on its disc: between two such, a chord leaves out no scallop between discs.
-    _sort_along(way, station[:m])
-    number = _with_notches(way, station[:m], (offset, window), (between, off), (border, other), abreast)
-    ends = quarter - 1
-    n = number + 2 * ends
-    for k in range(ends):
-        out = offset * np.cos(0.5 * np.pi * (k + 1) / quarter)
-        station[k], station[n - 1 - k] = way[begin, 0] - out, way[end, 0] + out
-    for k in range(number):
-        station[ends + k] = abreast[k]
-    _sections(way, station[:n], offset, window, border)
-    ring[0, 0], ring[0, 1] = way[begin, 0] - offset, way[begin, 1]
-    ring[n + 1, 0], ring[n + 1, 1] = way[end, 0] + offset, way[end, 1]
-    for k in range(n):
-        ring[1 + k, 0], ring[1 + k, 1] = station[k], border[k, 0]
-        ring[2 * n + 1 - k, 0], ring[2 * n + 1 - k, 1] = station[k], border[k, 1]
-    corners = 2 * n + 2
+    way, order, seen, crossing, ring, corner, is_kept, waiting = room
+    offset, spacing = disc
+    m, is_arc = place.shape[0], bend[2] != 0.0
+    way, order = way[:m], order[: m + 2]
+    from_x, from_y, toward_x, toward_y, turn = _lay(place, bend, way)
+    _sort_along(way, offset, is_arc, order)
+    left = (is_arc, offset, 1.0)
+    first = _side(way, (seen, crossing, _envelope(way, order, left, seen, crossing)), left, spacing, (ring, 0))
+    right = (is_arc, offset, -1.0)
+    corners = _side(way, (seen, crossing, _envelope(way, order, right, seen, crossing)), right, spacing, (ring, first))
+    for k in range((corners - first) // 2):  # it runs back
+        for axis in range(2):
+            at, mirrored = first + k, corners - 1 - k
+            ring[at, axis], ring[mirrored, axis] = ring[mirrored, axis], ring[at, axis]
     thin(ring[:corners], SIMPLER_UM, is_kept[:corners], waiting)
     made = 0
     for k in range(corners):
         if is_kept[k]:
-            corner[made, 0] = place[0, 0] + ring[k, 0] * toward_x - ring[k, 1] * toward_y
-            corner[made, 1] = place[0, 1] + ring[k, 0] * toward_y + ring[k, 1] * toward_x
+            aside = turn * ring[k, 1]
+            corner[made, 0] = from_x + ring[k, 0] * toward_x - aside * toward_y
+            corner[made, 1] = from_y + ring[k, 0] * toward_y + aside * toward_x
             made += 1
     corner[made, 0], corner[made, 1] = corner[0, 0], corner[0, 1]
     return made + 1

@@ -1,8 +1,8 @@
 """The region that the wire sweeps on its way: a union of bands and stars, one to each stretch of the way.
 
-The kerf is the union of discs about all places of the wire. Of a straight stretch it is a band (`bands`). Else take a
-stretch no longer than a disc's diameter: every disc on it holds the middle of the stretch. So their union is
-star-shaped about the middle: each ray from there meets the border once, where it leaves the farthest disc. Both are
+The kerf is the union of discs about all places of the wire. Of a stretch along a line or an arc it is a band (`bands`).
+Else take a stretch no longer than a disc's diameter: every disc on it holds the middle of the stretch. So their union
+is star-shaped about the middle: each ray from there meets the border once, where it leaves the farthest disc. Both are
 known in closed form. No buffer of a line is used: GEOS simplifies the line by 1 % of the distance first, 1 µm here
 (`BufferInputLineSimplifier`).
 
@@ -21,7 +21,7 @@ from parser.geometry.curves import Bools, Curves, Floats, Ints
 from parser.shape.contours import Contour
 from parser.shape.passes import find_passes, leads_of
 from parser.toolpath import Toolpath
-from sim.cut.kerf.bands import are_straight, bands
+from sim.cut.kerf.bands import are_even, bands, bends_of, longest_bands_um
 from sim.cut.kerf.edges import Edges, Range, edges_of, ranges
 from sim.cut.kerf.stars import stars
 from sim.cut.kerf.ways import WireWay, wire_ways
@@ -50,6 +50,9 @@ class Swept(NamedTuple):
         (s + 1,) int64, first place of each stretch, and one past the last place of the last one.
     is_band
         (s,) bool, whether it is swept as a band; else as a star.
+    bend
+        (s, 3) float64, centre and radius of the arc that it follows, the radius below 0 where it is clockwise; zeros
+        along a line.
     offset_um
         Half the width that the wire cuts.
     joined
@@ -62,6 +65,7 @@ class Swept(NamedTuple):
     way: WireWay
     border: Ints
     is_band: Bools
+    bend: Floats
     offset_um: float
     joined: tuple[Regions, ...]
     boxes: tuple[Floats, ...]
@@ -82,7 +86,7 @@ class Swept(NamedTuple):
         elif np.hypot(*(place_um[at] - place_um[begin])) <= self.offset_um:  # too short to tell where it leads
             made = stars(place_um, bounds, place_um[bounds[:, 0]], self.offset_um)
         else:
-            made = bands(place_um, bounds, self.offset_um)
+            made = bands(place_um, bounds, self.bend[None, stretch], self.offset_um)
         region: Region = made[0]
         return region
 
@@ -110,7 +114,7 @@ class Swept(NamedTuple):
     def of_stretches(self, at: Ints) -> Regions:
         """Regions (k,) of some stretches."""
         bounds = np.stack([self.border[at], self.border[at + 1]], axis=1)
-        return _regions(self.way, bounds, self.is_band[at], self.offset_um)
+        return _regions(self.way, bounds, self.is_band[at], self.bend[at], self.offset_um)
 
     def stretches_near(self, box: Box) -> Ints:
         """Indices (k,) of the stretches whose regions come near a box, in order."""
@@ -198,18 +202,19 @@ def _larger(box: Box) -> Box:
 
 def swept_along(curves: Curves, way: WireWay, offset_um: float) -> Swept:
     """The region that a wire with this offset sweeps on its way along the rows of some curves."""
-    first, is_band = _stretches(way, _longest_um(curves, offset_um), offset_um)
-    border = np.append(first, len(way.row))
-    regions = _regions(way, np.stack([first, border[1:]], axis=1), is_band, offset_um)
+    bends = bends_of(curves)
+    first, is_band = _stretches(way, _longest_um(curves, offset_um), bends, offset_um)
+    border, bend = np.append(first, len(way.row)), bends[way.row[first]]
+    regions = _regions(way, np.stack([first, border[1:]], axis=1), is_band, bend, offset_um)
     joined = _joined(regions)
     boxes = tuple(np.asarray(shapely.bounds(level)).reshape(-1, 4) for level in (regions, *joined))
-    return Swept(way, border, is_band, offset_um, joined, boxes)
+    return Swept(way, border, is_band, bend, offset_um, joined, boxes)
 
 
-def _regions(way: WireWay, bounds: Ints, is_band: Bools, offset_um: float) -> Regions:
+def _regions(way: WireWay, bounds: Ints, is_band: Bools, bend: Floats, offset_um: float) -> Regions:
     """Regions (s,) of stretches, by their `bounds` (s, 2)."""
     regions = np.empty(len(bounds), dtype=np.object_)
-    regions[is_band] = bands(way.place_um, bounds[is_band], offset_um)
+    regions[is_band] = bands(way.place_um, bounds[is_band], bend[is_band], offset_um)
     regions[~is_band] = stars(way.place_um, bounds[~is_band], middles(way, bounds[~is_band]), offset_um)
     return regions
 
@@ -221,7 +226,7 @@ def _longest_um(curves: Curves, offset_um: float) -> Floats:
     return shorter
 
 
-def _stretches(way: WireWay, longest_um: Floats, offset_um: float) -> tuple[Ints, Bools]:
+def _stretches(way: WireWay, longest_um: Floats, bends: Floats, offset_um: float) -> tuple[Ints, Bools]:
     """Indices (s,) of the first place of each stretch, and whether it is a band. None runs on into the next block.
 
     The rays of a star miss the notch between two discs. Notches are sharp at corners only, and there a new star begins.
@@ -230,12 +235,14 @@ def _stretches(way: WireWay, longest_um: Floats, offset_um: float) -> tuple[Ints
         return np.empty(0, dtype=np.int64), np.empty(0, dtype=np.bool_)
     changes = np.diff(way.row, prepend=-1) != 0
     along = way.along_um - way.along_um[changes][np.cumsum(changes) - 1]
-    is_long = _starts(changes, along, np.full(len(longest_um), _BAND * offset_um)[way.row])
+    longest_band = longest_bands_um(bends, _BAND * offset_um, offset_um)
+    is_long = _starts(changes, along, np.maximum(longest_band, longest_um)[way.row])
     long = np.flatnonzero(is_long)
-    past = np.append(long[1:], len(way.row))
+    past, row = np.append(long[1:], len(way.row)), way.row[long]
     length = way.along_um[past - 1] - way.along_um[long]
-    is_straight = are_straight(way.place_um, long) & (length > longest_um[way.row[long]])
-    in_band = np.repeat(is_straight, past - long)
+    may_be = (length > longest_um[row]) & (longest_band[row] > 0.0)
+    is_even = may_be & are_even(way.place_um, long, bends[row])
+    in_band = np.repeat(is_even, past - long)
     is_first = np.where(in_band, is_long, is_long | _starts(changes, along, longest_um[way.row]))
     first = np.flatnonzero(is_first)
     return first, in_band[first]
