@@ -148,6 +148,7 @@ _CORNERS = 1000  # an outline with more is simplified by twice as much, and so o
 _COARSEST_UM = 8.0
 _NEAR_UM = 1000.0  # walls are looked at in a box so much larger than the piece, then farther on its ways
 _FARTHER = 4.0  # times
+_STANDING = 0.9  # of the pieces: once fewer stand than that, those that have gone are no longer looked through
 
 
 class Shift(NamedTuple):
@@ -211,8 +212,13 @@ def plays_of(pieces: Pieces, wire_radius_um: float) -> tuple[Play, ...]:
     """
     if not pieces.freed:
         return ()
-    walls = walls_of(pieces)
-    return tuple(_play(walls, piece, wire_radius_um) for piece in pieces.freed)
+    walls, plays, standing = walls_of(pieces), list[Play](), len(pieces.freed)
+    for piece in pieces.freed:
+        left = len(pieces.freed) - len(plays)
+        if left < _STANDING * standing:
+            walls, standing = walls.since(piece.freed.t_s), left
+        plays.append(_play(walls, piece, wire_radius_um))
+    return tuple(plays)
 
 
 def _play(walls: Walls, piece: Piece, wire_radius_um: float) -> Play:

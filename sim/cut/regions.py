@@ -18,6 +18,8 @@ from numpy.typing import NDArray
 from shapely.errors import GEOSException
 from shapely.geometry.base import BaseGeometry
 
+from parser.geometry.curves import Ints, total_before
+
 Region = BaseGeometry
 """A polygon or a multipolygon, µm."""
 
@@ -75,6 +77,12 @@ def difference(this: Region, other: Region) -> Region:
     return _robust(shapely.difference, (this, other))
 
 
+def parted(stock_um: Region, kerf_um: Region) -> list[shapely.Polygon]:
+    """Parts of a stock, µm, that a kerf leaves, each a polygon; none where it leaves nothing."""
+    parts: list[shapely.Polygon] = shapely.get_parts(difference(stock_um, kerf_um)).tolist()
+    return parts
+
+
 def _robust(made: Callable[..., Region], regions: tuple[Region, ...]) -> Region:
     try:
         return made(*regions)
@@ -97,3 +105,23 @@ def simpler(outline: Outline, by_um: float) -> Outline:
         return plain
     simplified: Outline = shapely.simplify(outline, by_um)
     return simplified
+
+
+_STRING = 64  # corners, at most
+_STRING_UM = 2000.0
+
+
+def strings_of(rings: list[shapely.LinearRing]) -> tuple[Regions, Ints]:
+    """Rings in strings of some corners and some length, and the ring of each: their boxes have few places in them."""
+    corner, ring = shapely.get_coordinates(shapely.segmentize(rings, _STRING_UM), return_index=True)
+    first = np.flatnonzero(np.diff(ring, prepend=-1))
+    number = np.arange(len(ring)) - first[ring]
+    last = np.append(first[1:], len(ring))[ring] - 1
+    along = total_before(np.hypot(*np.diff(corner, axis=0).T))
+    part = np.floor((along - along[first][ring]) / _STRING_UM)
+    ends = (np.diff(part, prepend=-1.0) != 0.0) | (number % _STRING == 0)
+    begin = np.flatnonzero(ends & (np.arange(len(ring)) < last))
+    past = np.minimum(np.append(begin[1:], len(ring)), last[begin]) + 1
+    of = np.repeat(np.arange(len(begin)), past - begin)
+    at = np.arange(len(of)) - (np.cumsum(past - begin) - past)[of]
+    return shapely.linestrings(corner[at], indices=of), ring[begin]

@@ -18,10 +18,9 @@ from parser.geometry.curves import Bools, Curves, Floats, Ints
 from parser.toolpath import Point, Toolpath
 from sim.cut.kerf.edges import Edges, nominal_region
 from sim.cut.kerf.swept import Kerf
-from sim.cut.pieces.frees import parted
 from sim.cut.pieces.kept_edges import KeptEdges, KeptShape, kept_edges, kept_shapes, lie_on, runs_of
 from sim.cut.pieces.pieces import Pieces, stock_of
-from sim.cut.regions import Regions
+from sim.cut.regions import Regions, parted
 from sim.setup.obstacles import Outline
 
 _BESIDE = 2.0  # offsets from a shape to the border of its box: the kerf beside it, and what lies behind that

@@ -47,6 +47,11 @@ class Walls(NamedTuple):
     runs: Ints
     run_boxes: shapely.STRtree
 
+    def since(self, t_s: float) -> "Walls":
+        """These walls without the runs of rings that stand no longer after a time."""
+        standing = self.runs[self.until_s[self.runs[:, 0]] > t_s]
+        return self._replace(runs=standing, run_boxes=_boxes(self.corner_um, standing))
+
 
 class Room(NamedTuple):
     """Where a piece is when it comes free.

@@ -31,7 +31,6 @@ from sim.table.trace import Trace
 _STRETCH = 1.9  # offsets, at most; at 2 the discs at its ends would only just reach its middle
 _BAND = 32.0  # offsets, at most: what lies round a box is cut out of no longer ones
 _TURN_RAD = 0.5  # of a stretch, at most
-_REMADE = 4096  # regions of stretches that are there to be looked at again: some 20 MB
 _KEPT = 3  # of as many levels one is kept: all of them take twice the memory
 
 
@@ -53,6 +52,8 @@ class Swept(NamedTuple):
     bend
         (s, 3) float64, centre and radius of the arc that it follows, the radius below 0 where it is clockwise; zeros
         along a line.
+    chord_um, off_um
+        (s, 2, 2) and (s,) float64, from the first place of each to its last, and how far places lie off that at most.
     offset_um
         Half the width that the wire cuts.
     joined
@@ -66,6 +67,8 @@ class Swept(NamedTuple):
     border: Ints
     is_band: Bools
     bend: Floats
+    chord_um: Floats
+    off_um: Floats
     offset_um: float
     joined: tuple[Regions, ...]
     boxes: tuple[Floats, ...]
@@ -76,40 +79,22 @@ class Swept(NamedTuple):
         whole: Region = self.joined[-1][0] if self.joined else shapely.Polygon()
         return whole
 
-    def up_to(self, stretch: int, at: int, since: int = 0) -> Region:
-        """What is swept on a stretch from its place `since`, or its first one, to `at`: both are indices on the way."""
+    def up_to(self, stretch: int, at: int, since: int = 0, wider_um: float = 0.0) -> Region:
+        """What is swept on a stretch from its place `since`, or its first one, to `at`: both are indices on the way.
+
+        `wider_um` is added to the offset.
+        """
         begin, place_um = max(since, int(self.border[stretch])), self.way.place_um
-        bounds = np.array([[begin, at + 1]])
+        bounds, offset_um = np.array([[begin, at + 1]]), self.offset_um + wider_um
         if not self.is_band[stretch]:
             whole = self.border[None, stretch : stretch + 2]
-            made = stars(place_um, bounds, middles(self.way, whole), self.offset_um)
+            made = stars(place_um, bounds, middles(self.way, whole), offset_um)
         elif np.hypot(*(place_um[at] - place_um[begin])) <= self.offset_um:  # too short to tell where it leads
-            made = stars(place_um, bounds, place_um[bounds[:, 0]], self.offset_um)
+            made = stars(place_um, bounds, place_um[bounds[:, 0]], offset_um)
         else:
-            made = bands(place_um, bounds, self.bend[None, stretch], self.offset_um)
+            made = bands(place_um, bounds, self.bend[None, stretch], offset_um)
         region: Region = made[0]
         return region
-
-    def near(self, first: int, past: int, box: Box) -> list[Region]:
-        """Regions that are swept on some stretches, as far as they come near a box: together, all within the box.
-
-        Of the eights, those that lie in a box of three times the size are given as one.
-        """
-        larger, found, single = _larger(box), list[Region](), list[int]()
-        todo = [(len(self.joined), 0)]
-        while todo:
-            level, at = todo.pop()
-            low, high = at << _KEPT * level, min((at + 1) << _KEPT * level, len(self.is_band))
-            if low >= past or high <= first or not _meet(own := tuple(self.boxes[level][at].tolist()), box):
-                continue
-            if level == 0:
-                single.append(at)
-            elif low >= first and high <= past and _holds(larger, own):
-                found.append(self.joined[level - 1][at])
-            else:
-                past_it = min((at + 1) << _KEPT, len(self.boxes[level - 1]))
-                todo += [(level - 1, each) for each in reversed(range(at << _KEPT, past_it))]
-        return [*found, *self.of_stretches(np.array(single, dtype=np.int64))]
 
     def of_stretches(self, at: Ints) -> Regions:
         """Regions (k,) of some stretches."""
@@ -136,68 +121,10 @@ class Swept(NamedTuple):
 
     def places_of(self, stretches: Ints) -> Ints:
         """Indices of the places on the way, in order, of stretches (k,)."""
-        first, number = self.border[stretches], self._numbers(stretches)
+        first, number = self.border[stretches], self.border[stretches + 1] - self.border[stretches]
         before = np.cumsum(number) - number
         places: Ints = np.arange(int(number.sum())) + np.repeat(first - before, number)
         return places
-
-    def chords_of(self, stretches: Ints) -> tuple[Floats, Floats]:
-        """Chords (k, 2, 2) of stretches, from first to last place, and how far places lie off them at most (k,)."""
-        number = self._numbers(stretches)
-        chord = self.way.place_um[np.stack([self.border[stretches], self.border[stretches + 1] - 1], axis=1)]
-        if not len(stretches):
-            return chord, np.empty(0)
-        own, by = np.repeat(np.arange(len(number)), number), chord[:, 1] - chord[:, 0]
-        square = np.maximum((by**2).sum(axis=1), np.finfo(np.float64).tiny)
-        out = self.way.place_um[self.places_of(stretches)] - chord[own, 0]
-        share = np.clip((out * by[own]).sum(axis=1) / square[own], 0.0, 1.0)
-        off = out - share[:, None] * by[own]
-        return chord, np.maximum.reduceat(np.hypot(off[:, 0], off[:, 1]), np.cumsum(number) - number)
-
-    def _numbers(self, stretches: Ints) -> Ints:
-        """How many places each of some stretches has."""
-        numbers: Ints = self.border[stretches + 1] - self.border[stretches]
-        return numbers
-
-
-class SweptContours:
-    """What the wire swept on each contour.
-
-    Regions of single stretches are made where they are looked at; the last ones stay for who looks again.
-
-    Attributes
-    ----------
-    swept
-        On each contour, in the order they are cut.
-    """
-
-    def __init__(self, swept: tuple[Swept, ...]) -> None:
-        self.swept = swept
-        self._made: dict[tuple[int, int], Region] = {}
-
-    def stretches(self, contour: int, at: Ints) -> list[Region]:
-        """Regions of stretches of a contour by their indices (k,)."""
-        if len(self._made) > _REMADE:
-            self._made.clear()
-        lacking = [each for each in at.tolist() if (contour, each) not in self._made]
-        if lacking:
-            regions = self.swept[contour].of_stretches(np.array(lacking))
-            self._made.update(zip([(contour, each) for each in lacking], regions, strict=True))
-        return [self._made[contour, each] for each in at.tolist()]
-
-
-def _meet(this: Box, other: Box) -> bool:
-    return this[0] <= other[2] and other[0] <= this[2] and this[1] <= other[3] and other[1] <= this[3]
-
-
-def _holds(box: Box, other: Box) -> bool:
-    return box[0] <= other[0] and box[1] <= other[1] and box[2] >= other[2] and box[3] >= other[3]
-
-
-def _larger(box: Box) -> Box:
-    """A box of three times the size round another."""
-    wide, high = box[2] - box[0], box[3] - box[1]
-    return box[0] - wide, box[1] - high, box[2] + wide, box[3] + high
 
 
 def swept_along(curves: Curves, way: WireWay, offset_um: float) -> Swept:
@@ -208,7 +135,21 @@ def swept_along(curves: Curves, way: WireWay, offset_um: float) -> Swept:
     regions = _regions(way, np.stack([first, border[1:]], axis=1), is_band, bend, offset_um)
     joined = _joined(regions)
     boxes = tuple(np.asarray(shapely.bounds(level)).reshape(-1, 4) for level in (regions, *joined))
-    return Swept(way, border, is_band, bend, offset_um, joined, boxes)
+    return Swept(way, border, is_band, bend, *_chords(way.place_um, border), offset_um, joined, boxes)
+
+
+def _chords(place_um: Floats, border: Ints) -> tuple[Floats, Floats]:
+    """Chords (s, 2, 2) of stretches, from first to last place, and how far places lie off them at most (s,)."""
+    number = np.diff(border)
+    chord = place_um[np.stack([border[:-1], border[1:] - 1], axis=1)]
+    if not len(number):
+        return chord, np.empty(0)
+    own, by = np.repeat(np.arange(len(number)), number), chord[:, 1] - chord[:, 0]
+    square = np.maximum((by**2).sum(axis=1), np.finfo(np.float64).tiny)
+    out = place_um - chord[own, 0]
+    share = np.clip((out * by[own]).sum(axis=1) / square[own], 0.0, 1.0)
+    off = out - share[:, None] * by[own]
+    return chord, np.maximum.reduceat(np.hypot(off[:, 0], off[:, 1]), border[:-1])
 
 
 def _regions(way: WireWay, bounds: Ints, is_band: Bools, bend: Floats, offset_um: float) -> Regions:

@@ -11,12 +11,12 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 import shapely
-from numpy.typing import NDArray
 
-from parser.geometry.curves import Bools, Floats, Ints, total_before
+from parser.geometry.curves import Bools, Floats, Ints
 from sim.cut.kerf.swept import Kerf
 from sim.cut.kerf.ways import rows_that_made
 from sim.cut.pieces.pieces import Pieces
+from sim.cut.regions import strings_of
 
 
 class KeptShape(NamedTuple):
@@ -64,8 +64,6 @@ def _openings(pieces: Pieces) -> Iterator[KeptShape]:
 
 _ON_UM = 0.2  # a region is exact to 0.1 µm, and so is the edge of a block
 _NONE = -1
-_STRING = 64  # corners, at most
-_STRING_UM = 2000.0
 
 
 class KeptEdges(NamedTuple):
@@ -138,23 +136,7 @@ def _rings_at(rings: list[shapely.LinearRing], place_um: Floats) -> Ints:
     found = np.full(len(place_um), _NONE)
     # The places are in the tree and the strings query it: shapely prepares what queries.
     tree = shapely.STRtree(list(shapely.points(place_um)))  # type: ignore[arg-type]
-    string, ring = _strings(rings)
+    string, ring = strings_of(rings)
     piece_of_string, at = tree.query(string, predicate="dwithin", distance=_ON_UM)
     found[at] = ring[piece_of_string]
     return found
-
-
-def _strings(rings: list[shapely.LinearRing]) -> tuple[NDArray[np.object_], Ints]:
-    """Rings in strings of some corners and some length, and the ring of each: their boxes have few places in them."""
-    corner, ring = shapely.get_coordinates(shapely.segmentize(rings, _STRING_UM), return_index=True)
-    first = np.flatnonzero(np.diff(ring, prepend=-1))
-    number = np.arange(len(ring)) - first[ring]
-    last = np.append(first[1:], len(ring))[ring] - 1
-    along = total_before(np.hypot(*np.diff(corner, axis=0).T))
-    part = np.floor((along - along[first][ring]) / _STRING_UM)
-    ends = (np.diff(part, prepend=-1.0) != 0.0) | (number % _STRING == 0)
-    begin = np.flatnonzero(ends & (np.arange(len(ring)) < last))
-    past = np.minimum(np.append(begin[1:], len(ring)), last[begin]) + 1
-    of = np.repeat(np.arange(len(begin)), past - begin)
-    at = np.arange(len(of)) - (np.cumsum(past - begin) - past)[of]
-    return shapely.linestrings(corner[at], indices=of), ring[begin]

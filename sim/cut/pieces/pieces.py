@@ -8,10 +8,12 @@ import shapely
 
 from parser.shape.loops import rounds_from_within
 from parser.toolpath import Point, Toolpath
-from sim.cut.kerf.swept import Kerf, SweptContours
+from sim.cut.kerf.swept import Kerf
 from sim.cut.kerf.ways import WireWay
-from sim.cut.pieces.frees import Cutting, FreeMoment, Rest, cut_on_um, moments_of, parted
+from sim.cut.pieces.cut_on import Rest, cut_on_um
+from sim.cut.pieces.frees import Cutting, FreeMoment, moments_of
 from sim.cut.pieces.kinds import Bridge, Kind, Loose, bridge_of, held_after, kinds_of, older_place
+from sim.cut.regions import parted
 from sim.setup.obstacles import Outline
 
 _CRUMB_MM2 = 0.001  # some 30 µm square, or cusps where the wire leaves its kerf: nothing that anyone picks up
@@ -121,7 +123,8 @@ def pieces_of(kerf: Kerf, work_um: Outline | None, material: Material, pauses: S
     whole = [part for part in others if part.area * 1e-6 >= _CRUMB_MM2]
     kerfs = shapely.STRtree([each.region_um for each in kerf.swept])
     rounds = _rounds(kerfs, whole)
-    moments = moments_of(Cutting(stock, frame, whole, rounds, SweptContours(kerf.swept), kerf.offset_um))
+    crumbs = [part for part in others if part.area * 1e-6 < _CRUMB_MM2]
+    moments = moments_of(Cutting(stock, frame, whole, rounds, crumbs, kerf.swept))
     loosened = zip(whole, rounds, moments, strict=True)
     loose = [_loose(kerf, stock, part, round_, moment) for part, round_, moment in loosened if moment is not None]
     kinds = kinds_of(loose, kerf)

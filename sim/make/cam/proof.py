@@ -165,14 +165,16 @@ def _of_run(run: DryRun, how: AsRun) -> tuple[tuple[Finding, ...], tuple[Remark,
 def _at_fault(proof: Proof, run: DryRun, of_cut: tuple[Finding, ...], plan: CutPlan) -> tuple[NotProved, ...]:
     """The figures that fail a proof where others do not, by its faults and by the findings `of_cut` on their edges.
 
-    None where anything else speaks against the program: that is of no one figure.
+    None where anything else speaks against the program: that is of no one figure. Where an edge of each is off, those
+    count alone whose own path is at fault: a figure that is cut wrong may spoil the edge of another.
     """
     others = [finding for finding in proof.counting if finding not in of_cut]
     if proof.verdict != "fail" or others or not all(fault.figure for fault in proof.faults):
         return ()
     cut_of, by_number = _cut_of_block(run.toolpath), {cut.figure.number: cut.figure for cut in plan.cuts}
     what = {plan.cuts[cut_of[each.block]].figure.number: each.code for each in proof.counting}
-    what.update((fault.figure, fault.name) for fault in reversed(proof.faults))
+    of_path = {fault.figure: fault.name for fault in reversed(proof.faults)}
+    what = of_path if len({**what, **of_path}) == len(by_number) else {**what, **of_path}
     if len(what) == len(by_number):
         return ()
     return tuple(NotProved(number, what[number]) for number in sorted(what))

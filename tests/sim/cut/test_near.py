@@ -1,87 +1,24 @@
-"""What is looked at near a piece alone comes out as with all that was cut: when it comes free, and what it touches."""
+"""What is looked at near a piece alone comes out as with all that was cut: which places cut it, and what it touches."""
 
 import math
 
 import numpy as np
 import pytest
 import shapely
+from crossing_ways import flower, lattice
 from paths import Pen
 from traced import STEEL, F, kerf_along, pieces_along, trace_of
 
-from parser.toolpath import Toolpath
 from sim.cut import play, sizes
 from sim.cut.kerf.edges import nominal_region
 from sim.cut.kerf.stars import SIMPLER_UM, rays, stars
 from sim.cut.kerf.ways import rows_that_made
-from sim.cut.pieces import frees, kept_edges
+from sim.cut.pieces import cut_on, kept_edges
 from sim.cut.pieces.kept_edges import lie_on
 from sim.cut.pieces.pieces import pieces_of
 from sim.cut.play import plays_of, shifted_until, sides_of
 from sim.cut.sizes import sizes_of
 from sim.cut.walls import room_of, walls_of
-
-
-def lattice(lines: int) -> Toolpath:
-    """To and fro, then up and down across that: the first line across frees whole rows, which later ones part."""
-    pen, size = Pen(0, 0), 1000.0 * lines
-    for row in range(lines + 1):
-        pen.to(size if row % 2 == 0 else 0, 1000.0 * row)
-        if row < lines:
-            pen.to(pen.x, 1000.0 * (row + 1))
-    pen.to(pen.x, size + 600)
-    toward = 1.0 if pen.x == 0 else -1.0
-    for column in range(lines):
-        pen.to(pen.x + toward * (500 if column == 0 else 1000), pen.y)
-        pen.to(pen.x, -600 if column % 2 == 0 else size + 600)
-    return pen.path()
-
-
-def flower() -> Toolpath:
-    """Loops that each cross the one before."""
-    pen = Pen(0, 0)
-    for step in range(1, 160):
-        angle = step * math.pi / 20
-        pen.to(step * 25 + 900 * math.sin(angle), 900 * (1 - math.cos(angle)))
-    return pen.path()
-
-
-@pytest.mark.alike(1)
-@pytest.mark.parametrize("path", [lattice(4), flower()], ids=["lattice", "flower"])
-def test_pieces_come_free_in_their_boxes_as_in_all_of_the_stock(path, monkeypatch):
-    kerf = kerf_along(path)
-    near = pieces_of(kerf, None, STEEL).freed
-    monkeypatch.setattr(frees, "_BESIDE", 1e6)
-    whole = pieces_of(kerf, None, STEEL).freed
-    assert len(near) > 8
-    assert len({piece.freed for piece in near}) < len(near) or path.length_um.max() < 1000
-    assert [piece.freed for piece in near] == [piece.freed for piece in whole]
-    assert [piece.cut_after_um for piece in near] == pytest.approx([piece.cut_after_um for piece in whole])
-
-
-def loops(seed: int) -> Toolpath:
-    """Squares at random places: some lie in others, some cross others, some lie alone in the frame."""
-    rng = np.random.default_rng(seed)
-    pen = Pen(0, 0)
-    for _ in range(9):
-        x, y = rng.integers(0, 24, 2) * 400.0
-        size = 500.0 + 300.0 * rng.integers(0, 8)
-        pen.jump(x, y)
-        for corner in ((x + size, y), (x + size, y + size), (x, y + size), (x, y)):
-            pen.to(*corner)
-    return pen.path()
-
-
-@pytest.mark.alike(2)
-@pytest.mark.parametrize("seed", range(6))
-def test_parts_alone_in_a_hole_come_free_when_a_larger_box_would_tell_that_they_do(seed, monkeypatch):
-    kerf = kerf_along(loops(seed))
-    near = pieces_of(kerf, None, STEEL).freed
-    skipped = []
-    alone = frees._alone
-    monkeypatch.setattr(frees, "_alone", lambda cutting: (skipped.extend(alone(cutting)), set())[1])
-    asked = pieces_of(kerf, None, STEEL).freed
-    assert skipped
-    assert [piece.freed for piece in near] == [piece.freed for piece in asked]
 
 
 @pytest.mark.parametrize("path", [lattice(4), flower()], ids=["lattice", "flower"])
@@ -118,17 +55,6 @@ def test_walls_ahead_are_those_that_a_piece_meets_on_its_way_and_no_others_are_l
 
 
 @pytest.mark.alike(1)
-@pytest.mark.parametrize("few", [0, 64])
-def test_stretches_are_looked_at_one_by_one_as_several_together(few, monkeypatch):
-    kerf = kerf_along(lattice(3))
-    monkeypatch.setattr(frees, "_FEW", few)
-    freed = [piece.freed for piece in pieces_of(kerf, None, STEEL).freed]
-    monkeypatch.setattr(frees, "_FEW", 5)
-    assert len(freed) > 8
-    assert [piece.freed for piece in pieces_of(kerf, None, STEEL).freed] == freed
-
-
-@pytest.mark.alike(1)
 @pytest.mark.parametrize("path", [lattice(4), flower()], ids=["lattice", "flower"])
 def test_places_near_a_piece_are_found_by_the_chords_of_their_stretches(path):
     (swept,) = kerf_along(path).swept
@@ -136,8 +62,8 @@ def test_places_near_a_piece_are_found_by_the_chords_of_their_stretches(path):
     for x, y in rng.uniform(0.0, 4000.0, (12, 2)):
         piece = shapely.Point(x, y).buffer(rng.uniform(50.0, 600.0))
         shapely.prepare(piece)
-        inside = frees._inside(piece, frees.Rest(swept, 100), F)
-        near = shapely.distance(piece, shapely.points(swept.way.place_um)) <= (1.0 - frees._SPARED) * F
+        inside = cut_on._inside(piece, cut_on.Rest(swept, 100), F)
+        near = shapely.distance(piece, shapely.points(swept.way.place_um)) <= (1.0 - cut_on._SPARED) * F
         assert inside.tolist() == [at for at in np.flatnonzero(near).tolist() if at >= 100]
 
 
