@@ -170,16 +170,17 @@ class _Frees:
         reaching = first + _reaching(place, gap.box, swept.offset_um)
         since, past = int(reaching[0]), int(reaching[-1])
         at, stride = first + gap.closes_about(place, swept.offset_um), 1
-        low, high = since - 1, past
+        low, high, closed = since - 1, past, None
         # In strides that double, from where the wire first comes upon what was cut before: most gaps close there.
         while high - low > 1:
             at = min(max(at, low + 1), high - 1)
-            if gap.is_open(gap.uncut(at, since)):
+            uncut = gap.uncut(at, since)
+            if gap.is_open(uncut):
                 low, at = at, at + stride
             else:
-                high, at = at, at - stride
+                high, closed, at = at, uncut, at - stride
             at, stride = (at, 2 * stride) if low < at < high else ((low + high) // 2, stride)
-        own = [each.cell_um for each in gap.uncut(high, since) if OWN in each.groups]
+        own = [each.cell_um for each in closed or gap.uncut(high, since) if OWN in each.groups]
         return FreeMoment(contour, high, self._hung_um(part, parting, own))
 
 

@@ -26,7 +26,7 @@ from parser.toolpath import Point, Toolpath
 from parser.units import mm
 from sim.cut.regions import RegionError
 from sim.measure.compare.descent import Fit, fit, settled, shifted_onto
-from sim.measure.compare.directed import Directed, directed
+from sim.measure.compare.directed import Directed, directed, feet_on
 from sim.measure.compare.nearest import Index, indexed, nearest
 from sim.measure.compare.program_edge import ProgramEdges, edge_at, program_edges, with_gouges
 from sim.measure.compare.result import Comparison, Edge, FitRequest
@@ -170,7 +170,8 @@ def _compare(edge: Edge, drawing: Drawing, request: FitRequest) -> Comparison:
     if as_it_is:
         placement = settled(edge, target, placement, request.tolerance_um)
     laid = placed(target.curves, placement)
-    there, back = directed(edge.curves, indexed(laid)), directed(laid, of_edge)
+    drawn = indexed(laid)
+    there, back = directed(edge.curves, drawn), directed(laid, of_edge, feet_on(drawn, edge.curves.start_um))
     slip = unit_slip(edge.curves, edge.loop, index, whole.loop, as_it_is)
     gouges = tuple(gouge for gouge in edge.gouges if gouge.depth_um > request.tolerance_um)
     names = [slip.remark] if slip else _posed(placement, edge.curves, request.tolerance_um)

@@ -1,6 +1,7 @@
 """How far each of some curves lies from others at most, and where: branch and bound over their length.
 
-A curve is halved wherever it may still lie farther off than anything found on it so far, as `stretch_loop` bounds it.
+A curve is halved wherever it may still lie farther off than anything found on it so far, as `bounds` tells. Where the
+others are chains of chords, as an edge as cut, a curve begins in stretches from one corner of theirs to the next.
 
 The compiled bound of a comparison: how far stretches of curves can lie from others at most, by what their ends tell.
 
@@ -16,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from controller.compiled.loops import compiled, loop_part
-from parser.geometry.along import places
+from parser.geometry.along import along_um, places
 from parser.geometry.curves import Curves, Floats, Ints
 from sim.measure.compare.nearest import Index, nearest
 from sim.measure.curve_rows import IS_ARC, LENGTH, RADIUS, angle_at, curve_rows, distance_from, foot_angle, place_at
@@ -125,9 +126,27 @@ class Stretches(NamedTuple):
         )
 
 
-def directed(curves: Curves, index: Index) -> Directed:
-    """Distances of the curves, one or more, from those of the index."""
-    row, fraction = _samples(curves)
+class Feet(NamedTuple):
+    """Places on curves: row and fraction, (m,) each."""
+
+    row: Ints
+    fraction: Floats
+
+
+_NO_FEET = Feet(np.empty(0, dtype=np.int64), np.empty(0))
+
+
+def feet_on(index: Index, place_um: Floats) -> Feet:
+    """The places on some curves that are nearest to places (m, 2)."""
+    row = nearest(index, place_um.astype(np.float64)).row
+    length = index.curves.length_um[row]
+    share = along_um(index.curves, row, place_um) / np.where(length > 0.0, length, 1.0)
+    return Feet(row, np.clip(share, 0.0, 1.0))
+
+
+def directed(curves: Curves, index: Index, feet: Feet = _NO_FEET) -> Directed:
+    """Distances of the curves, one or more, from those of the index; `feet` on them are looked at first."""
+    row, fraction = _samples(curves, feet)
     found = nearest(index, places(curves, row, fraction))
     at = np.flatnonzero(row[1:] == row[:-1])
     best = _Best(len(curves))
@@ -168,13 +187,17 @@ class _Best:
         self.max_um[at], self.fraction[at], self.other[at] = distance[first], fraction[first], other[first]
 
 
-def _samples(curves: Curves) -> tuple[Ints, Floats]:
-    """Rows and fractions to begin with, ends included."""
+def _samples(curves: Curves, feet: Feet) -> tuple[Ints, Floats]:
+    """Rows and fractions to begin with, in order, ends included."""
     spacing = max(float(curves.length_um.sum()) * _SPACING_SHARE, _RIGHT_TO_UM)
     parts = np.maximum(np.ceil(curves.length_um / spacing), _FEWEST).astype(np.int64)
     row = np.repeat(np.arange(len(curves)), parts + 1)
     at = np.arange(len(row)) - (np.cumsum(parts + 1) - parts - 1)[row]
-    return row, at / parts[row]
+    row, fraction = np.concatenate([row, feet.row]), np.concatenate([at / parts[row], feet.fraction])
+    order = np.lexsort((fraction, row))
+    row, fraction = row[order], fraction[order]
+    is_new = np.append(True, (np.diff(row) != 0) | (np.diff(fraction) > 0.0))
+    return row[is_new], fraction[is_new]
 
 
 def _halved(curves: Curves, index: Index, whole: Stretches, best: _Best) -> Stretches:
