@@ -31,7 +31,7 @@ from sim.table.trace import Trace
 _STRETCH = 1.9  # offsets, at most; at 2 the discs at its ends would only just reach its middle
 _BAND = 32.0  # offsets, at most: what lies round a box is cut out of no longer ones
 _TURN_RAD = 0.5  # of a stretch, at most
-_KEPT = 3  # of as many levels one is kept: all of them take twice the memory
+_LEVEL = 3  # eight boxes together make one of the next level
 
 
 Box = tuple[float, float, float, float]
@@ -56,11 +56,11 @@ class Swept(NamedTuple):
         (s, 2, 2) and (s,) float64, from the first place of each to its last, and how far places lie off that at most.
     offset_um
         Half the width that the wire cuts.
-    joined
-        Regions of up to eight stretches, then of up to eight of these, and so on up to the whole. Those of single
-        stretches are made again where they are looked at: all of them take most of the memory of a run.
+    region_um
+        The whole, empty where the wire did not come. Regions of stretches are made again where they are looked at.
     boxes
-        (…, 4) float64 of the stretches, and of each level: lowest x and y, highest x and y of its regions.
+        (…, 4) float64, lowest x and y, highest x and y of the stretches' regions, then of eight of these together, and
+        so on.
     """
 
     way: WireWay
@@ -70,14 +70,8 @@ class Swept(NamedTuple):
     chord_um: Floats
     off_um: Floats
     offset_um: float
-    joined: tuple[Regions, ...]
+    region_um: Region
     boxes: tuple[Floats, ...]
-
-    @property
-    def region_um(self) -> Region:
-        """The whole, empty where the wire did not come."""
-        whole: Region = self.joined[-1][0] if self.joined else shapely.Polygon()
-        return whole
 
     def up_to(self, stretch: int, at: int, since: int = 0, wider_um: float = 0.0) -> Region:
         """What is swept on a stretch from its place `since`, or its first one, to `at`: both are indices on the way.
@@ -108,7 +102,7 @@ class Swept(NamedTuple):
             low_x, low_y, high_x, high_y = self.boxes[level][at].T
             at = at[(low_x <= box[2]) & (high_x >= box[0]) & (low_y <= box[3]) & (high_y >= box[1])]
             if level:
-                within = (at[:, None] << _KEPT) + np.arange(1 << _KEPT)
+                within = (at[:, None] << _LEVEL) + np.arange(1 << _LEVEL)
                 at = within[within < len(self.boxes[level - 1])]
         return at
 
@@ -133,9 +127,8 @@ def swept_along(curves: Curves, way: WireWay, offset_um: float) -> Swept:
     first, is_band = _stretches(way, _longest_um(curves, offset_um), bends, offset_um)
     border, bend = np.append(first, len(way.row)), bends[way.row[first]]
     regions = _regions(way, np.stack([first, border[1:]], axis=1), is_band, bend, offset_um)
-    joined = _joined(regions)
-    boxes = tuple(np.asarray(shapely.bounds(level)).reshape(-1, 4) for level in (regions, *joined))
-    return Swept(way, border, is_band, bend, *_chords(way.place_um, border), offset_um, joined, boxes)
+    boxes = _boxes(np.asarray(shapely.bounds(regions)).reshape(-1, 4))
+    return Swept(way, border, is_band, bend, *_chords(way.place_um, border), offset_um, _joined(regions), boxes)
 
 
 def _chords(place_um: Floats, border: Ints) -> tuple[Floats, Floats]:
@@ -203,15 +196,23 @@ def middles(way: WireWay, bounds: Ints) -> Floats:
     return middle
 
 
-def _joined(regions: Regions) -> tuple[Regions, ...]:
-    levels, last, times = list[Regions](), regions, 0
-    while len(last) > 1:
-        pairs = unions(last[:-1:2], last[1::2])
-        last, times = np.append(pairs, last[-1:]) if len(last) % 2 else pairs, times + 1
-        if times % _KEPT == 0:
-            levels.append(last)
-    if (len(last) and times % _KEPT) or len(regions) == 1:
-        levels.append(last)
+def _joined(regions: Regions) -> Region:
+    """The union of regions, two by two: those that follow each other overlap."""
+    while len(regions) > 1:
+        pairs = unions(regions[:-1:2], regions[1::2])
+        regions = np.append(pairs, regions[-1:]) if len(regions) % 2 else pairs
+    whole: Region = regions[0] if len(regions) else shapely.Polygon()
+    return whole
+
+
+def _boxes(boxes: Floats) -> tuple[Floats, ...]:
+    """Boxes (s, 4), and those of eight together, level by level up to a few."""
+    levels = [boxes]
+    while len(levels[-1]) > 1 << _LEVEL:
+        first = np.arange(0, len(levels[-1]), 1 << _LEVEL)
+        low, high = levels[-1][:, :2], levels[-1][:, 2:]
+        together = np.minimum.reduceat(low, first), np.maximum.reduceat(high, first)
+        levels.append(np.concatenate(together, axis=1))
     return tuple(levels)
 
 

@@ -162,20 +162,41 @@ def _steps_um(place: Floats) -> Floats:
 _INEXACT_UM = 0.2  # an edge may lie beside the discs of the wire by so much: outlines are simplified by 0.05 µm
 _SPACING = 0.25  # reaches between the places of an edge that is looked at
 _MOST_PLACES = 2000  # of them
+_IN_A_STRIP = 500_000  # places of the wire: some 50 MB while they are sorted
 _ALIKE_UM = 0.04  # passes on one way come equally near but for this: each way is known at places some 4 µm apart
 
 
 def rows_that_made(ways: Iterable[WireWay], place_um: Floats, reach_um: float) -> Ints:
     """Rows (m,) of the toolpath whose wire made the places (m, 2) on an edge; NOBODY where none did.
 
-    Where several ran over the same way, it is the last of them.
+    Where several ran over the same way, it is the last of them. Places are looked at strip by strip along X, so that no
+    more of the wire's places are sorted at a time than lie near one strip.
     """
-    parts = [(way.place_um, way.row) for way in ways if len(way.row)]
-    if not parts:
-        return np.full(len(place_um), NOBODY, dtype=np.int64)
-    wire, row = (np.concatenate(column) for column in zip(*parts, strict=True))  # ways are in the order they are cut
-    last = last_beside(wire, place_um, reach_um + _INEXACT_UM, _ALIKE_UM)
-    return np.where(last == NOBODY, NOBODY, row[last])
+    made = np.full(len(place_um), NOBODY, dtype=np.int64)
+    parts = [way for way in ways if len(way.row)]
+    if not parts or not len(made):
+        return made
+    within, x = reach_um + _INEXACT_UM, place_um[:, 0]
+    spans = np.array([(way.place_um[:, 0].min(), way.place_um[:, 0].max()) for way in parts])
+    for strip in _strips(x, sum(len(way.row) for way in parts)):
+        low, high = float(x[strip].min()) - within - _ALIKE_UM, float(x[strip].max()) + within + _ALIKE_UM
+        near = [parts[at] for at in np.flatnonzero((spans[:, 0] <= high) & (spans[:, 1] >= low)).tolist()]
+        picked = [(way, (way.place_um[:, 0] >= low) & (way.place_um[:, 0] <= high)) for way in near]
+        # Ways are in the order they are cut.
+        wire = np.concatenate([np.empty((0, 2)), *(way.place_um[which] for way, which in picked)])
+        row = np.concatenate([np.empty(0, dtype=np.int64), *(way.row[which] for way, which in picked)])
+        last = last_beside(wire, place_um[strip], within, _ALIKE_UM)
+        is_made = last != NOBODY
+        made[strip[is_made]] = row[last[is_made]]
+    return made
+
+
+def _strips(x_um: Floats, wire: int) -> list[Ints]:
+    """Indices of places (m,), in strips along X, of which each has its share of the wire's places."""
+    number = -(-wire // _IN_A_STRIP)
+    if number == 1:
+        return [np.arange(len(x_um))]
+    return [strip for strip in np.array_split(np.argsort(x_um, kind="stable"), number) if len(strip)]
 
 
 def lines_of(way_um: Sequence[Floats]) -> shapely.MultiLineString:

@@ -76,6 +76,7 @@ def bounds(
 
 _RIGHT_TO_UM = 0.01
 _ROUNDING_DIGITS = 6  # of µm: what lies below is rounding
+_TOGETHER = 1 << 15  # curves looked at in one go: some 30 MB of stretches
 _FEWEST = 2  # stretches of a curve to begin with
 _SPACING_SHARE = 2e-4  # of all length: no stretch is longer to begin with
 
@@ -146,27 +147,38 @@ def feet_on(index: Index, place_um: Floats) -> Feet:
 
 def directed(curves: Curves, index: Index, feet: Feet = _NO_FEET) -> Directed:
     """Distances of the curves, one or more, from those of the index; `feet` on them are looked at first."""
-    row, fraction = _samples(curves, feet)
+    length, best, squares = float(curves.length_um.sum()), _Best(len(curves)), 0.0
+    spacing = max(length * _SPACING_SHARE, _RIGHT_TO_UM)
+    order = np.argsort(feet.row, kind="stable")
+    feet = Feet(feet.row[order], feet.fraction[order])
+    own = curve_rows(curves)
+    for first in range(0, len(curves), _TOGETHER):
+        rows = np.arange(first, min(first + _TOGETHER, len(curves)))
+        low, past = np.searchsorted(feet.row, [first, first + _TOGETHER]).tolist()
+        of_rows = Feet(feet.row[low:past], feet.fraction[low:past])
+        open_ = _begun(curves, index, _samples(curves, rows, of_rows, spacing), best)
+        while len(open_.row):
+            bound = np.empty(len(open_.row))
+            bounds(own, index.shape, (*open_,), bound)
+            deep = bound > best.max_um[open_.row] + _RIGHT_TO_UM
+            squares += _squares(curves, open_.take(np.flatnonzero(~deep)))
+            open_ = _halved(curves, index, open_.take(np.flatnonzero(deep)), best)
+    where = places(curves, np.arange(len(curves)), best.fraction)
+    return Directed(best.max_um, best.fraction, where, best.other, float(np.sqrt(squares / length)) if length else 0.0)
+
+
+def _begun(curves: Curves, index: Index, samples: Feet, best: "_Best") -> Stretches:
+    """The stretches between samples of curves; what is met at these is entered."""
+    row, fraction = samples
     found = nearest(index, places(curves, row, fraction))
-    at = np.flatnonzero(row[1:] == row[:-1])
-    best = _Best(len(curves))
     best.meet(row, fraction, found.distance_um, found.row)
-    open_ = Stretches(
+    at = np.flatnonzero(row[1:] == row[:-1])
+    return Stretches(
         row[at],
         *(fraction[at], fraction[at + 1]),
         *(found.distance_um[at], found.distance_um[at + 1]),
         *(found.row[at], found.row[at + 1]),
     )
-    own, squares = curve_rows(curves), 0.0
-    while len(open_.row):
-        bound = np.empty(len(open_.row))
-        bounds(own, index.shape, (*open_,), bound)
-        deep = bound > best.max_um[open_.row] + _RIGHT_TO_UM
-        squares += _squares(curves, open_.take(np.flatnonzero(~deep)))
-        open_ = _halved(curves, index, open_.take(np.flatnonzero(deep)), best)
-    length = float(curves.length_um.sum())
-    where = places(curves, np.arange(len(curves)), best.fraction)
-    return Directed(best.max_um, best.fraction, where, best.other, float(np.sqrt(squares / length)) if length else 0.0)
 
 
 class _Best:
@@ -187,17 +199,16 @@ class _Best:
         self.max_um[at], self.fraction[at], self.other[at] = distance[first], fraction[first], other[first]
 
 
-def _samples(curves: Curves, feet: Feet) -> tuple[Ints, Floats]:
-    """Rows and fractions to begin with, in order, ends included."""
-    spacing = max(float(curves.length_um.sum()) * _SPACING_SHARE, _RIGHT_TO_UM)
-    parts = np.maximum(np.ceil(curves.length_um / spacing), _FEWEST).astype(np.int64)
-    row = np.repeat(np.arange(len(curves)), parts + 1)
-    at = np.arange(len(row)) - (np.cumsum(parts + 1) - parts - 1)[row]
-    row, fraction = np.concatenate([row, feet.row]), np.concatenate([at / parts[row], feet.fraction])
+def _samples(curves: Curves, rows: Ints, feet: Feet, spacing_um: float) -> Feet:
+    """Where some curves are looked at to begin with, in order: at their ends, no farther apart, and at feet on them."""
+    parts = np.maximum(np.ceil(curves.length_um[rows] / spacing_um), _FEWEST).astype(np.int64)
+    nth = np.repeat(np.arange(len(rows)), parts + 1)
+    at = np.arange(len(nth)) - (np.cumsum(parts + 1) - parts - 1)[nth]
+    row, fraction = np.concatenate([rows[nth], feet.row]), np.concatenate([at / parts[nth], feet.fraction])
     order = np.lexsort((fraction, row))
     row, fraction = row[order], fraction[order]
     is_new = np.append(True, (np.diff(row) != 0) | (np.diff(fraction) > 0.0))
-    return row[is_new], fraction[is_new]
+    return Feet(row[is_new], fraction[is_new])
 
 
 def _halved(curves: Curves, index: Index, whole: Stretches, best: _Best) -> Stretches:

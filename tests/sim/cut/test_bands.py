@@ -158,7 +158,7 @@ def test_what_is_swept_up_to_a_place_is_the_union_of_the_discs_so_far() -> None:
     assert are_even(place, first, STRAIGHT).all()
     assert not are_even(place[:502], first, STRAIGHT).any()
     way, chord = WireWay(place, along, along, row), place[None, [0, -1]]
-    swept = Swept(way, np.array([0, 1001]), np.array([True]), STRAIGHT, chord, np.zeros(1), F, (), ())
+    swept = Swept(way, np.array([0, 1001]), np.array([True]), STRAIGHT, chord, np.zeros(1), F, shapely.Polygon(), ())
     for at in (0, 1, 20, 34, 100, 501, 700, 1000):
         discs = discs_of(place[: at + 1])
         region = swept.up_to(0, at)
