@@ -4,7 +4,7 @@ import json
 import math
 import re
 import zipfile
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,7 +13,7 @@ from axe import needs_axe, violations
 from browser import Browsers
 from drawings_dxf import drawn
 from ezdxf.layouts import Modelspace
-from open_tab import Tab, tab
+from open_tab import places_of, planned, tab
 from opened_page import OpenedPage, Recorder, opened_page
 from page_checks import complaints
 from places import ROOT
@@ -437,27 +437,6 @@ def test_a_second_program_is_compared_with_the_one_that_was_open(browsers: Brows
         verdict, findings, _ = shown.page.locator("#both tr.other").all_inner_texts()
         assert (verdict, findings) == ("结论\t不通过\t通过", "问题\t3B204\t–")
         assert shown.page.locator("#beside-open").is_hidden()
-
-
-@pytest.mark.deeper
-def places_of(shown: Tab) -> Callable[[float, float], tuple[float, float]]:
-    """Where on the page places of the picture lie, mm, by what is read where the pointer is."""
-    box = shown.page.locator("#picture").bounding_box()
-    assert box
-    read = []
-    for share in (0.4, 0.6):
-        place = box["x"] + share * box["width"], box["y"] + share * box["height"]
-        shown.page.mouse.move(*place)
-        said = shown.page.inner_text("#reading-cursor")
-        read.append((place, [float(each) for each in re.findall(r"-?[\d.]+", said)]))
-    (this, at), (other, to) = read
-    scale = [(there - here) / (mm - own) for here, there, own, mm in zip(this, other, at, to, strict=True)]
-    return lambda x, y: (this[0] + scale[0] * (x - at[0]), this[1] + scale[1] * (y - at[1]))
-
-
-def planned(page: "Page", said: str = "Plan, not proved") -> None:
-    """Wait until the plan of a drawing says something."""
-    page.locator("#drawing-told li", has_text=said).wait_for()
 
 
 def test_the_plan_is_drawn_at_once_and_follows_each_change(

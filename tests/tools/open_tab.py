@@ -1,6 +1,7 @@
 """The page of ``drycut open`` in a browser."""
 
-from collections.abc import Iterator
+import re
+from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, ExitStack, contextmanager
 from typing import TYPE_CHECKING, NamedTuple
 from urllib.parse import urlsplit
@@ -78,3 +79,23 @@ def tab_in(browsers: Browsers, address: str, window: Window) -> Iterator[Tab]:
         assert [url for url in shown.asked if not url.startswith((address, "blob:", "data:"))] == []
         closing.pop_all()
     contexts.take_back(lent)
+
+
+def places_of(shown: Tab) -> Callable[[float, float], tuple[float, float]]:
+    """Where on the page places of the picture lie, mm, by what is read where the pointer is."""
+    box = shown.page.locator("#picture").bounding_box()
+    assert box
+    read = []
+    for share in (0.4, 0.6):
+        place = box["x"] + share * box["width"], box["y"] + share * box["height"]
+        shown.page.mouse.move(*place)
+        said = shown.page.inner_text("#reading-cursor")
+        read.append((place, [float(each) for each in re.findall(r"-?[\d.]+", said)]))
+    (this, at), (other, to) = read
+    scale = [(there - here) / (mm - own) for here, there, own, mm in zip(this, other, at, to, strict=True)]
+    return lambda x, y: (this[0] + scale[0] * (x - at[0]), this[1] + scale[1] * (y - at[1]))
+
+
+def planned(page: "Page", said: str = "Plan, not proved") -> None:
+    """Wait until the plan of a drawing says something."""
+    page.locator("#drawing-told li", has_text=said).wait_for()

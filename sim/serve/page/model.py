@@ -63,12 +63,22 @@ class LookedEntry(TypedDict):
 
 
 class PlannedFigureEntry(TypedDict):
-    """A figure of a plan: its number, its first row of the path and one past its last, and its thread point."""
+    """A figure of a plan: its number, its first row of the path and one past its last, and how it is cut.
+
+    It is cut from `entry_um` on the drawing, with the wire towards `out`, a unit vector; `is_ccw` is its direction in
+    the drawing, `is_inside` whether the wire runs inside of it. `tab_um` is where its tab begins, none where it has
+    none.
+    """
 
     number: int
     first: int
     past: int
     thread_um: Point
+    entry_um: Point
+    out: Point
+    is_ccw: bool
+    is_inside: bool
+    tab_um: Point | None
 
 
 class PlannedEntry(TypedDict):
@@ -76,6 +86,8 @@ class PlannedEntry(TypedDict):
 
     path: NotRequired[CurvesEntry]
     is_lead: NotRequired[list[bool]]
+    row_pass: NotRequired[Annotated[list[int], "pass of its figure that each block is of, from 1; 0 of others"]]
+    is_left: NotRequired[Annotated[list[bool], "whether the waste is on the left of each block"]]
     figures: NotRequired[Annotated[list[PlannedFigureEntry], "in the order in which they are cut"]]
     told: NotRequired[list[SaidEntry]]
     why: NotRequired[SaidEntry | None]

@@ -7,19 +7,24 @@ process can be ended at any moment. What it found is a file of JSON, which may b
 import json
 from typing import Any
 
+import numpy as np
+
 from parser.drawing.model import Drawing
 from parser.drawing.read import read_drawing
 from parser.findings.catalogue import LANGUAGES, Bilingual, remark_text
 from parser.findings.errors import DrycutError
+from parser.geometry.curves import Bools, Ints
 from parser.program import load_program, moving
 from parser.shape.contours import runs
+from parser.shape.passes import find_passes
 from parser.toolpath import Toolpath
 from parser.units import mm
 from sim.base.units import place
 from sim.make.cam.maker import MadeProgram, unproved
+from sim.make.cam.model import FigureCut
 from sim.measure.compare.compare import compare_program
 from sim.measure.compare.result import FitRequest
-from sim.measure.compare.starts import IN_PLACE, Placement, placed
+from sim.measure.compare.starts import IN_PLACE, Placement, placed, turning
 from sim.run.prepare import as_run
 from sim.serve.page.answers import leads_shown, printable_entry
 from sim.serve.page.child import PageRequest, do_each, written
@@ -93,21 +98,54 @@ def _laid(text: str) -> Placement:
 def _entry(done: MadeProgram, placement: Placement) -> PlannedEntry:
     path = done.wire_way
     rows, cuts = runs(path).tolist(), done.plan.cuts
+    spans = list(zip(cuts, rows, strict=True)) if len(rows) == len(cuts) else []
     at_um = placed(path, placement).start_um
-    figures: list[PlannedFigureEntry] = [
-        {"number": cut.figure.number, "first": first, "past": past, "thread_um": place(at_um[first])}
-        for cut, (first, past) in zip(cuts, rows, strict=False)
-        if len(rows) == len(cuts)
-    ]
+    figures = [_figure(cut, span, place(at_um[span[0]]), placement) for cut, span in spans]
     length = f"{mm(float(path.length_um[~path.is_jump].sum())):.3f}"
     sum_ = bilingual("open.planned", figures=numbered({"figure": len(cuts)}), length=length)
     checked = zip(*(to_check(done.plan, language) for language in LANGUAGES), strict=True)
+    row_pass, is_left = _passes_of_rows(path, spans, placement)
     return {
         "path": exact_columns(placed(path, placement)),
         "is_lead": leads_shown(path),
+        "row_pass": row_pass.tolist(),
+        "is_left": is_left.tolist(),
         "figures": figures,
         "told": [*map(printable_entry, [sum_, *(by_controls(Bilingual(*both)) for both in checked)])],
     }
+
+
+def _figure(cut: FigureCut, span: list[int], thread_um: list[float], placement: Placement) -> PlannedFigureEntry:
+    """How a figure is cut, as it lies beneath the program."""
+    entry, turn = cut.thread.entry, turning(placement.turn_rad, mirror=placement.mirror).T
+    tab = cut.passes[0].along.end_um[-1] if cut.cut_off else None
+    return {
+        "number": cut.figure.number,
+        "first": span[0],
+        "past": span[1],
+        "thread_um": thread_um,
+        "entry_um": place(np.array(entry.place_um) @ turn + placement.shift_um),
+        "out": (np.array(entry.out) @ turn).tolist(),
+        "is_ccw": cut.is_ccw,
+        "is_inside": cut.figure.runs_inside,
+        "tab_um": None if tab is None else place(tab @ turn + placement.shift_um),
+    }
+
+
+def _passes_of_rows(
+    path: Toolpath, spans: list[tuple[FigureCut, list[int]]], placement: Placement
+) -> tuple[Ints, Bools]:
+    """Which pass of its figure each row (n,) is of, from 1, else 0, and whether the waste is on its left.
+
+    What is cut of a tab counts as the last pass.
+    """
+    passes = find_passes(path)
+    number = np.array([*(each.number for each in passes.passes), 0], dtype=np.int64)[passes.of_row]
+    is_left = np.array([*(each.is_back for each in passes.passes), False])[passes.of_row]
+    for cut, (first, past) in spans:
+        number[first:past] = np.minimum(number[first:past], len(cut.passes))
+        is_left[first:past] ^= (cut.side > 0) != placement.mirror
+    return number, is_left
 
 
 if __name__ == "__main__":

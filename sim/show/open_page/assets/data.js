@@ -166,18 +166,27 @@
  * @typedef {object} Planned
  * @property {Curves} [path]
  * @property {boolean[]} [is_lead]
+ * @property {number[]} [row_pass] pass of its figure that each block is of, from 1; 0 of others
+ * @property {boolean[]} [is_left] whether the waste is on the left of each block
  * @property {PlannedFigure[]} [figures] in the order in which they are cut
  * @property {Said[]} [told]
  * @property {Said | null} [why]
  */
 
 /**
- * A figure of a plan: its number, its first row of the path and one past its last, and its thread point.
+ * A figure of a plan: its number, its first row of the path and one past its last, and how it is cut. It is cut from
+ * `entry_um` on the drawing, with the wire towards `out`, a unit vector; `is_ccw` is its direction in the drawing,
+ * `is_inside` whether the wire runs inside of it. `tab_um` is where its tab begins, none where it has none.
  * @typedef {object} PlannedFigure
  * @property {number} number
  * @property {number} first
  * @property {number} past
  * @property {Place} thread_um
+ * @property {Place} entry_um
+ * @property {Place} out
+ * @property {boolean} is_ccw
+ * @property {boolean} is_inside
+ * @property {Place | null} tab_um
  */
 
 /**

@@ -3,6 +3,7 @@ import * as asked from "./asked.js";
 import { wireDrawing } from "./drawing.js";
 import { wireFiles } from "./files.js";
 import { wireForm } from "./form.js";
+import { wireGripping } from "./gripping.js";
 import { editsOfAll, showFound } from "./found.js";
 import { wireListing } from "./listing.js";
 import { pictureOf } from "./picture.js";
@@ -27,9 +28,12 @@ const mendAll = element("#mend-all", HTMLButtonElement);
 const status = wireStatus();
 const form = wireForm((isRead) => (isRead ? recheck() : showForm()));
 const picture = pictureOf(element("#picture", HTMLCanvasElement), {
-  block: goToBlock, hover: (place, row) => watching.hover(place, row), place: (place, nearUm) => drawing.pick(place, nearUm),
-  mark: (place, nearUm) => drawing.mark(place, nearUm),
+  block: goToBlock,
+  hover: (place, row, nearUm) => { watching.hover(place, row); gripping.hover(place, nearUm); },
+  place: (place, nearUm) => gripping.click(place, nearUm) || drawing.pick(place, nearUm),
+  mark: (place, nearUm) => drawing.mark(place, nearUm) ?? gripping.mark(place, nearUm),
 });
+const gripping = wireGripping(picture);
 const text = textOf(element("#text", HTMLTextAreaElement), element("#lines", HTMLElement), (line) => {
   picture.markLine(line);
   caret = line;

@@ -9,7 +9,7 @@ import { penOf } from "../../replay/assets/pen.js";
 import { differing } from "./differing.js";
 import { wireMeasuring } from "./measuring.js";
 import { drawEntries, drawPicks, drawStarts } from "./picks.js";
-import { drawPlan, figureAt } from "./plan.js";
+import { planLayer } from "./plan_layer.js";
 import { rowAt } from "./snap.js";
 import { drawAxes, drawBand, drawPlayed } from "./under_path.js";
 import { drawWire } from "../../replay/assets/wire.js";
@@ -41,8 +41,7 @@ export function pictureOf(canvas, on) {
   let others = differing(null, null);
   /** @type {ReturnType<typeof pathOf> | null} */
   let drawing = null;
-  /** @type {{ plan: Planned, drawn: ReturnType<typeof pathOf> } | null} */
-  let planned = null;
+  const planned = planLayer();
   /** @type {Figure[]} */
   let figures = [];
   /** @type {Finding[]} */
@@ -160,7 +159,7 @@ export function pictureOf(canvas, on) {
     drawPicks(pen, view, picks, shades.accent);
     drawStarts(pen, view, starts, shades.accent);
     drawEntries(pen, view, entries, shades.accent);
-    if (planned) drawPlan(pen, view, planned.plan, planned.drawn, shades);
+    planned.draw(pen, view, shades);
     measuring.draw(pen, shades.accent);
     drawScaleBar(pen, view, colours);
   }
@@ -218,9 +217,10 @@ export function pictureOf(canvas, on) {
    * Tell where the pointer is, once there is something to see.
    * @param {[x: number, y: number] | null} place
    * @param {number} row
+   * @param {number} nearUm
    */
-  function tellPlace(place, row) {
-    if (!place || drawn || drawing) on.hover(place, row);
+  function tellPlace(place, row, nearUm) {
+    if (!place || drawn || drawing) on.hover(place, row, nearUm);
   }
 
   /**
@@ -334,17 +334,18 @@ export function pictureOf(canvas, on) {
      * @param {Planned | null} plan
      */
     plan(plan) {
-      planned = plan?.path ? { plan, drawn: pathOf(plan.path) } : null;
+      planned.set(plan);
       later();
     },
+    figureAt: planned.figureAt,
+    planned: planned.now,
     /**
-     * The figure of the plan at a place, µm; null where none is near.
+     * Give the figure of the plan at a place, µm, the grips.
      * @param {[x: number, y: number]} place
      * @param {number} nearUm
      */
-    figureAt(place, nearUm) {
-      const { plan, drawn: way } = planned ?? {};
-      return plan?.path && way ? figureAt(plan.figures ?? [], place, rowAt(plan.path, way, place, nearUm), nearUm) : null;
+    grip(place, nearUm) {
+      if (planned.grip(place, nearUm)) later();
     },
     fit() {
       fit();

@@ -14,8 +14,8 @@ import { wirePointer } from "../../replay/assets/pointer.js";
  *   whether it is taken, so that no block is
  * @property {(place: Place, nearUm: number) => ((place: Place) => void) | null} mark what moves the mark at a place; null
  *   where there is none
- * @property {(place: Place | null, row: number) => void} hover told where the pointer is, and over which block; −1 over
- *   none, null where it has left
+ * @property {(place: Place | null, row: number, nearUm: number) => void} hover told where the pointer is, over which block,
+ *   and how far off still means it; −1 over none, null where it has left
  */
 
 /**
@@ -63,7 +63,9 @@ export function wirePointing(canvas, view, on) {
   canvas.addEventListener("pointerdown", (event) => {
     pressed = [event.clientX, event.clientY];
     const isMark = event.isPrimary && !on.measuring.isOn();
-    drags = isMark ? on.mark(view.placeOf(...at(event)), NEAR / view.scale) : null;
+    const [place, nearUm] = [view.placeOf(...at(event)), NEAR / view.scale];
+    if (isMark) on.hover(place, on.rowAt(place, nearUm), nearUm); // a finger is seen when it is down
+    drags = isMark ? on.mark(place, nearUm) : null;
   });
   for (const name of ["pointerup", "pointercancel"]) canvas.addEventListener(name, () => { drags = null; });
   canvas.addEventListener("click", (event) => {
@@ -83,7 +85,7 @@ export function wirePointing(canvas, view, on) {
     if (on.measuring.isOn() && !event.buttons) on.measuring.move(x, y);
     if (drags && isDrag(event)) drags(place);
     canvas.style.cursor = drags ? "grabbing" : !event.buttons && on.mark(place, nearUm) ? "grab" : "";
-    on.hover(place, on.rowAt(place, nearUm));
+    on.hover(place, on.rowAt(place, nearUm), nearUm);
   });
-  canvas.addEventListener("pointerleave", () => on.hover(null, -1));
+  canvas.addEventListener("pointerleave", () => on.hover(null, -1, 0));
 }
