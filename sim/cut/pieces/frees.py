@@ -8,8 +8,8 @@ already, the one that is cut last is next. A way that comes upon a part that is 
 
 Within that stretch, the first place is looked for at which what the wire has swept parts the two sides.
 
-A part that other contours cut free as a piece of a larger body comes free by its own kerf: a slug falls out of a part,
-whenever that part came free itself.
+A part that other contours cut free with more in a larger body comes free when it comes off that: a slug falls out of a
+part, whenever that part came free itself.
 """
 
 from collections.abc import Callable, Sequence
@@ -125,13 +125,14 @@ class _Frees:
         return (np.inf, 0) if moment is None else moment.when
 
     def _by_own(self, part: int, way: _Way, on: int) -> FreeMoment | None:
-        """When a part that other contours part from the frame comes free by its own kerf; None where it never does."""
+        """When a part that other contours part from the frame comes off a body that they freed; None without such."""
         own = self._contours[part]
         if self._contours[on] == own and self._parted[part] is self._parted[on]:
             return self.moments[on]
-        for each in reversed(way.breaks):
+        parts_then = [*(len(later.parts) for later in way.breaks[1:]), np.inf]
+        for each, number in reversed(list(zip(way.breaks, parts_then, strict=True))):
             round_it = set[int]().union(*(self._contours[other] for other in each.parts if other < len(self._contours)))
-            if self._cells.place_of(each.stretch)[0] in own and round_it <= own:
+            if number > len(each.parts) and round_it <= own:
                 return self._moment(part, each, lambda _: True)
         return None
 

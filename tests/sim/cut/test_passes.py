@@ -149,11 +149,13 @@ def test_two_passes_on_one_way_are_told_where_each_made_the_edge():
     assert {round(size.nominal_um) for size in sizes.distances} == {round(W), round(H)}
 
 
-def closed_punch(*offsets: float) -> Toolpath:
-    """All passes all round, there and back: the rough cut frees it."""
+def closed_punch(*offsets: float, between: str = "contour") -> Toolpath:
+    """All passes all round, there and back, or each threaded anew: the rough cut frees it."""
     pen = Pen(0, -H / 2 - 1500)
     for number, by in enumerate(offsets):
-        turn(pen.to(0, -H / 2 - by), by, back=number % 2 == 1)
+        if number and between == "jump":
+            pen.to(0, -H / 2 - 1500).jump(0, -H / 2 - 1500)
+        turn(pen.to(0, -H / 2 - by), by, back=between == "contour" and number % 2 == 1)
     return pen.to(0, -H / 2 - 1500).path()
 
 
@@ -161,10 +163,12 @@ def largest(path: Toolpath, pauses: tuple[int, ...] = ()) -> Piece:
     return max(pieces_of(kerf_along(path), None, STEEL, pauses).freed, key=lambda piece: piece.area_mm2)
 
 
-def test_a_punch_that_its_rough_cut_frees_is_loose_while_it_is_trimmed():
-    part = largest(closed_punch(*OFFSETS))
+@pytest.mark.parametrize("between", ["contour", "jump"])
+def test_a_punch_that_its_rough_cut_frees_is_loose_while_it_is_trimmed(between):
+    """Also where trims of their own leave nothing of the edge that the rough cut made."""
+    part = largest(closed_punch(*OFFSETS, between=between))
     perimeter = 2 * (W + H - 4 * R) + 2 * math.pi * (R + 120)
-    assert part.early
+    assert (part.early, part.freed.contour) == (True, 1)
     assert part.cut_after_um == pytest.approx(2 * perimeter, rel=0.02)
     assert part.held_after_block is None
 
