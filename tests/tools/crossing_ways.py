@@ -1,4 +1,4 @@
-"""Ways that cross themselves and each other, so that pieces hang on pieces: a lattice, a flower, squares at random."""
+"""Ways that cross themselves and each other, so that pieces hang on pieces: a lattice, a flower, squares, walks."""
 
 import math
 
@@ -42,4 +42,21 @@ def loops(seed: int) -> Toolpath:
         pen.jump(x, y)
         for corner in ((x + size, y), (x + size, y + size), (x, y + size), (x, y)):
             pen.to(*corner)
+    return pen.path()
+
+
+def walk(seed: int) -> Toolpath:
+    """Lines and arcs from place to place at random, in up to three contours."""
+    rng = np.random.default_rng(seed)
+    pen = Pen(0, 0)
+    for contour in range(int(rng.integers(1, 4))):
+        if contour:
+            pen.jump(*(100.0 * rng.integers(-30, 31, 2)))
+        for _ in range(int(rng.integers(3, 14))):
+            if rng.random() < 0.25:
+                radius, angle = 100.0 * rng.integers(3, 12), rng.uniform(0.0, 2.0 * math.pi)
+                sweep = rng.choice([-1.0, 1.0]) * rng.uniform(1.0, 6.0)
+                pen.arc(pen.x + radius * math.cos(angle), pen.y + radius * math.sin(angle), sweep)
+            else:
+                pen.to(*(100.0 * rng.integers(-30, 31, 2)))
     return pen.path()

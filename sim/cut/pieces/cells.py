@@ -15,7 +15,8 @@ from parser.geometry.curves import Bools, Ints
 from sim.cut.kerf.swept import Box, Swept
 from sim.cut.regions import Region, Regions, difference, strings_of, union, union_all
 
-_THIN_UM = 0.05  # kerfs are exact to 0.1 µm: where the wire runs on its own way again, slivers are left between them
+THIN_UM = 0.05
+"""Kerfs are exact to 0.1 µm: where the wire runs on its own way again, slivers so thin are left between them."""
 _GAP_UM = 0.06  # and what lies as near to each other as a sliver is thick touches
 _CONTACT_UM = 0.5  # of border: less is a corner, which holds nothing
 _FEW = 6  # kerfs that are taken off a stretch one by one; more are put together first
@@ -113,13 +114,10 @@ class Cells:
         own = self._string[string[self._part_of_string[string] == node]]
         return shapely.union_all(shapely.intersection(own, cell.grown_um))
 
-    def up_to(self, stretch: int, at: int, since: int) -> Region:
-        """What is swept on a stretch from a place to another, by their indices on the way through the contour.
-
-        It is wider than the wire cuts by as much as regions are inexact: no thread is left along the stretch.
-        """
+    def up_to(self, stretch: int, at: int, since: int, wider_um: float) -> Region:
+        """What a wider wire sweeps on a stretch from a place to another, by their indices on the way."""
         contour, own = self.place_of(stretch)
-        return self._swept[contour].up_to(own, at, since, wider_um=_THIN_UM)
+        return self._swept[contour].up_to(own, at, since, wider_um)
 
     def _touched_by(self, cell: Cell) -> frozenset[int]:
         string = self._strings.query(cell.grown_um, predicate="intersects")
@@ -157,7 +155,7 @@ def thick(region: Region) -> Regions:
     """The parts (k,) of a region that are no slivers: these are twice their area by their border thick."""
     parts = shapely.get_parts(region)
     parts = parts[shapely.get_dimensions(parts) == _AREAL]
-    those: Regions = parts[2.0 * shapely.area(parts) > _THIN_UM * shapely.length(parts)]
+    those: Regions = parts[2.0 * shapely.area(parts) > THIN_UM * shapely.length(parts)]
     return those
 
 

@@ -21,10 +21,11 @@ import shapely
 from parser.geometry.curves import Floats, Ints
 from sim.cut.kerf.swept import Box, Swept
 from sim.cut.pieces.cells import Cells, joined_um
-from sim.cut.pieces.gap import OWN, Gap
+from sim.cut.pieces.gap import FOREVER, OWN, Gap, Uncut, When
 from sim.cut.pieces.hanging import Break, Hanging
 
 _FRAME = 0
+_EXACT = 2  # places on from where a wider wire closes a gap, at which the wire itself does, but for grazing kerfs
 
 
 class FreeMoment(NamedTuple):
@@ -109,20 +110,27 @@ class _Frees:
         way = self._way_out(part)
         if not way.reached:
             return
-        on = max(way.reached, key=self._holds_until)
+        on = max(way.reached, key=self._hangs_until)
         parted = self._parted[on]
         last = way.breaks[-1].stretch
         if parted is None or parted.when >= self._span(last)[0]:
-            own = self._moment(part, way.breaks[-1], self._holds_at(last))
-            parted = own if parted is None or own.when < parted.when else parted
+            own = self._moment(
+                part, way.breaks[-1], lambda other: self._hangs_until(other) if other in self._parted else None
+            )
+            same = (self._parted[other] for other in way.reached if self._hangs_until(other) == own.when)
+            parted = next(same, own) or own
         self._parted[part] = parted
         is_own = parted.contour in self._contours[part]
         self.moments[part] = parted if is_own else self._by_own(part, way, on) or parted
 
-    def _holds_until(self, part: int) -> tuple[float, int]:
-        """Contour and place at which a known part parts from the frame; the frame itself holds for ever."""
+    def _hangs_until(self, part: int) -> When:
+        """Contour and place at which a known part parts from the frame; the frame itself never does."""
         moment = self._parted[part]
-        return (np.inf, 0) if moment is None else moment.when
+        return FOREVER if moment is None else moment.when
+
+    def _known_until(self, part: int) -> When | None:
+        """The same of a part that may not be known."""
+        return self._hangs_until(part) if part in self._parted else None
 
     def _by_own(self, part: int, way: _Way, on: int) -> FreeMoment | None:
         """When a part that other contours part from the frame comes off a body that they freed; None without such."""
@@ -133,7 +141,7 @@ class _Frees:
         for each, number in reversed(list(zip(way.breaks, parts_then, strict=True))):
             round_it = set[int]().union(*(self._contours[other] for other in each.parts if other < len(self._contours)))
             if number > len(each.parts) and round_it <= own:
-                return self._moment(part, each, lambda _: True)
+                return self._moment(part, each, lambda _: FOREVER)
         return None
 
     def _way_out(self, part: int) -> _Way:
@@ -156,33 +164,37 @@ class _Frees:
         first, past = self._swept[contour].border[own : own + 2].tolist()
         return (contour, first), (contour, past - 1)
 
-    def _holds_at(self, stretch: int) -> Callable[[int], bool]:
-        """Whether a part is known to hang on the frame at the first place of a stretch."""
-        first = self._span(stretch)[0]
-        return lambda part: part in self._parted and self._holds_until(part) > first
-
-    def _moment(self, part: int, parting: Break, holds: Callable[[int], bool]) -> FreeMoment:
-        """The first place of a stretch at which it parts what hung together from all parts that hold it."""
+    def _moment(self, part: int, parting: Break, holds_until: Callable[[int], When | None]) -> FreeMoment:
+        """The first place of a stretch at which it parts what hung together from all that holds it then."""
         (contour, first), (_, last) = self._span(parting.stretch)
-        gap, swept = Gap(self._cells, parting, holds), self._swept[contour]
+        gap, swept = Gap(self._cells, parting, holds_until), self._swept[contour]
         if not gap.whole:  # it holds by less than a contact
             return FreeMoment(contour, last, self._hung_um(part, parting, []))
         place = swept.way.place_um[first : last + 1]
         reaching = first + _reaching(place, gap.box, swept.offset_um)
         since, past = int(reaching[0]), int(reaching[-1])
         at, stride = first + gap.closes_about(place, swept.offset_um), 1
-        low, high, closed = since - 1, past, None
+        low, high = first - 1, past
         # In strides that double, from where the wire first comes upon what was cut before: most gaps close there.
         while high - low > 1:
             at = min(max(at, low + 1), high - 1)
-            uncut = gap.uncut(at, since)
-            if gap.is_open(uncut):
+            if gap.is_open(gap.uncut(at, since), (contour, at)):
                 low, at = at, at + stride
             else:
-                high, closed, at = at, uncut, at - stride
+                high, at = at, at - stride
             at, stride = (at, 2 * stride) if low < at < high else ((low + high) // 2, stride)
-        own = [each.cell_um for each in closed or gap.uncut(high, since) if OWN in each.groups]
-        return FreeMoment(contour, high, self._hung_um(part, parting, own))
+        at, uncut = self._closed(gap, (contour, high), since, past)
+        own = [each.cell_um for each in uncut if OWN in each.groups]
+        return FreeMoment(contour, at, self._hung_um(part, parting, own))
+
+    def _closed(self, gap: Gap, when: tuple[int, int], since: int, past: int) -> tuple[int, list[Uncut]]:
+        """The place at which a gap is closed, and what is left of it: that of a wider wire, or one of the next few."""
+        contour, high = when
+        for at in range(high, min(high + _EXACT, past) + 1):
+            uncut = gap.uncut(at, since, wider_um=0.0)
+            if not gap.is_open(uncut, (contour, at)):
+                return at, uncut
+        return high, gap.uncut(high, since)
 
 
 def _reaching(place_um: Floats, box: Box, offset_um: float) -> Ints:

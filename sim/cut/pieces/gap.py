@@ -8,14 +8,18 @@ import shapely
 
 from parser.geometry.curves import Floats, Ints
 from sim.cut.kerf.swept import Box
-from sim.cut.pieces.cells import CellAt, Cells, are_in_contact, contacts, thick, touch
+from sim.cut.pieces.cells import THIN_UM, CellAt, Cells, are_in_contact, contacts, thick, touch
 from sim.cut.pieces.hanging import Break, Hanging, Node
 from sim.cut.regions import Regions, difference
 
 _NEARLY_UM = 0.1  # as near as regions are exact, older kerf is come upon
 OWN = 0
 """The group of what hung together."""
-_OTHER = 1
+
+When = tuple[float, int]
+"""Contour and place on the wire's way through it, in the order they are cut."""
+FOREVER: When = (np.inf, 0)
+_NEVER: When = (-1.0, 0)
 
 
 class Uncut(NamedTuple):
@@ -36,7 +40,7 @@ class _Whole(NamedTuple):
 class Gap:
     """Cells of one stretch, which the wire takes, between what hung together and what lies behind.
 
-    Groups: 0 what hung together, 1 what holds it, others what hangs together behind the gap and holds nothing.
+    Groups: 0 what hung together, others what hangs together behind the gap, and holds until some place or nothing.
 
     Attributes
     ----------
@@ -44,10 +48,10 @@ class Gap:
         The cells through which what hung together hangs on to more.
     """
 
-    def __init__(self, cells: Cells, parting: Break, holds: Callable[[int], bool]) -> None:
-        self._cells, self._stretch, self._holds = cells, parting.stretch, holds
+    def __init__(self, cells: Cells, parting: Break, holds_until: Callable[[int], When | None]) -> None:
+        self._cells, self._stretch, self._holds_until = cells, parting.stretch, holds_until
         self._group: dict[Node, int] = dict.fromkeys([*parting.parts, *parting.cells], OWN)
-        self._groups = 2
+        self._until: list[When] = [_NEVER]
         rest = [CellAt(parting.stretch, number) for number in range(len(cells.of_stretch(parting.stretch)))]
         nodes = {at: self._nodes_beside(at) for at in rest}
         linked = {OWN}
@@ -56,7 +60,7 @@ class Gap:
             for node in (node for at in on for node in nodes[at]):
                 if node not in self._group:
                     self._look_behind(node)
-            linked |= {self._group[node] for at in on for node in nodes[at]} - {_OTHER}
+            linked |= {self._group[node] for at in on for node in nodes[at]}
         self.whole = [self._whole(at, nodes[at]) for at in nodes if at not in rest]
 
     @property
@@ -77,12 +81,16 @@ class Gap:
 
     def _look_behind(self, node: Node) -> None:
         """Put what hangs together with a node, but for the stretch and what came before it, in a group."""
-        hanging = Hanging(self._cells, [node], self._holds)
+        hanging = Hanging(self._cells, [node], lambda part: self._holds_until(part) is not None)
         while hanging.next > self._stretch and not hanging.reached:
             hanging.take_back()
-        own = {self._group[each] for each in (*hanging.parts, *hanging.cells) if each in self._group}
-        group = min(own) if own else _OTHER if hanging.reached else self._groups
-        self._groups += 1
+        own = [self._group[each] for each in (*hanging.parts, *hanging.cells) if each in self._group]
+        until = max((self._holds_until(part) or _NEVER for part in hanging.reached), default=_NEVER)
+        group = min(own, default=len(self._until))
+        if own:
+            self._until[group] = max(self._until[group], until)
+        else:
+            self._until.append(until)
         self._group.update(dict.fromkeys([node, *hanging.parts, *hanging.cells], group))
 
     def _whole(self, at: CellAt, nodes: list[Node]) -> _Whole:
@@ -95,9 +103,14 @@ class Gap:
         places, reach = np.asarray(shapely.points(place_um), dtype=np.object_), offset_um + _NEARLY_UM
         return max(_second(_older_edges(each), places, reach) for each in self.whole)
 
-    def uncut(self, at: int, since: int) -> list[Uncut]:
-        """What is left of the cells once the wire has come from a place of the stretch to another."""
-        front, found = self._cells.up_to(self._stretch, at, since), list[Uncut]()
+    def uncut(self, at: int, since: int, wider_um: float = THIN_UM) -> list[Uncut]:
+        """What is left of the cells once the wire has come from a place of the stretch to another; all of it before.
+
+        The wire is wider than it is by as much as regions are inexact, so that no thread is left along the stretch.
+        """
+        if at < since:
+            return [Uncut(whole.cell_um, frozenset(whole.group.tolist())) for whole in self.whole]
+        front, found = self._cells.up_to(self._stretch, at, since, wider_um), list[Uncut]()
         for whole in self.whole:
             parts = thick(difference(whole.cell_um, front))
             touches = are_in_contact(parts[:, None], whole.contact_um[None, :])
@@ -105,14 +118,14 @@ class Gap:
             found += [Uncut(*pair) for pair in zip(parts.tolist(), groups, strict=True)]
         return found
 
-    def is_open(self, left: list[Uncut]) -> bool:
-        """Whether what hung together still hangs on what holds it, through what is left."""
+    def is_open(self, left: list[Uncut], when: When) -> bool:
+        """Whether what hung together still hangs, at a place, on what holds it then, through what is left."""
         own, grew = {OWN}, True
         while grew:
             linked = set[int]().union(*(each.groups for each in left if each.groups & own))
             grew = not linked <= own
             own |= linked
-        return _OTHER in own
+        return max(self._until[group] for group in own) > when
 
 
 def _older_edges(whole: _Whole) -> Regions:

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 import shapely
-from crossing_ways import flower, lattice, loops
+from crossing_ways import flower, lattice, loops, walk
 from traced import STEEL, kerf_along
 
 from parser.toolpath import Toolpath
@@ -13,8 +13,8 @@ from sim.cut.kerf.swept import Kerf
 from sim.cut.pieces.pieces import Piece, pieces_of, stock_of
 from sim.cut.regions import Region, difference, union_all
 
-GRAZED = 2
-"""Places by which a moment may be off: where a kerf grazes another one, 0.05 µm of width are as much way."""
+GRAZED = 8
+"""Places by which a moment may be off: where a kerf grazes another one, 0.05 µm of width are as much way; else 1."""
 
 
 class Place(NamedTuple):
@@ -68,22 +68,23 @@ def place_of(kerf: Kerf, piece: Piece) -> Place:
 
 
 def assert_free_as_the_whole_kerf_says(path: Toolpath) -> int:
-    """A piece that other contours part from the frame comes off a larger one at its own moment; gives how many do."""
+    """A piece that others part from the frame with more in a body comes free when it comes off that; gives how many."""
     kerf = kerf_along(path)
     sweeping, pieces = Sweeping(kerf), pieces_of(kerf, None, STEEL)
-    frame, loose = shapely.Point(*np.array(sweeping.stock.bounds[:2]) + 1.0), 0
-    for piece in pieces.freed:
-        point, moment = piece.outline_um.representative_point(), place_of(kerf, piece)
-        parted = sweeping.parted_at(point, frame)
-        if parted.contour == moment.contour:
-            assert abs(moment.at - parted.at) <= GRAZED, (moment, parted)
+    frame, grazed, loose = shapely.Point(*np.array(sweeping.stock.bounds[:2]) + 1.0), 0, 0
+    points = [piece.outline_um.representative_point() for piece in pieces.freed]
+    for piece, point in zip(pieces.freed, points, strict=True):
+        moment, parted = place_of(kerf, piece), sweeping.parted_at(point, frame)
+        if parted.contour == moment.contour and abs(moment.at - parted.at) <= GRAZED:
+            grazed += abs(moment.at - parted.at) > 1
             continue
         loose += 1
         assert moment > parted
         before, after = (
             sweeping.round_it(sweeping.up_to(moment._replace(at=moment.at + by)), point) for by in (-GRAZED, GRAZED)
         )
-        assert before.area - after.area > 1e4, "it loses more than the wire cuts on those places"
+        assert shapely.contains(before, points).sum() > shapely.contains(after, points).sum(), "it came off others"
+    assert grazed <= 2 + len(points) // 10
     return loose
 
 
@@ -97,3 +98,9 @@ def test_pieces_of_a_way_that_crosses_itself_come_free_as_the_whole_kerf_says(pa
 @pytest.mark.parametrize("seed", range(40))
 def test_pieces_of_squares_that_cross_come_free_as_the_whole_kerf_says(seed: int) -> None:
     assert_free_as_the_whole_kerf_says(loops(seed))
+
+
+@pytest.mark.alike(2)
+@pytest.mark.parametrize("seed", range(40))
+def test_pieces_of_walks_come_free_as_the_whole_kerf_says(seed: int) -> None:
+    assert_free_as_the_whole_kerf_says(walk(seed))
