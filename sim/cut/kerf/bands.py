@@ -28,8 +28,6 @@ _ACROSS_UM: Final = 4.0
 """How far apart places of a stretch may lie across it: as far as backlash moves the wire where an axis turns."""
 _BACK_UM: Final = 1.0
 """How far the wire may go back along a stretch: a step."""
-
-
 _TIGHTEST: Final = 3.0
 """Offsets: radius of the tightest arc that has bands. A ray from its centre passes no disc near its end then."""
 _TURN_RAD: Final = 1.5

@@ -21,7 +21,8 @@ _GAP_UM = 0.06  # and what lies as near to each other as a sliver is thick touch
 _CONTACT_UM = 0.5  # of border: less is a corner, which holds nothing
 _FEW = 6  # kerfs that are taken off a stretch one by one; more are put together first
 _AREAL = 2
-_REMADE = 4096  # regions of stretches, and cells, that are there to be looked at again: some 20 MB
+_REMADE = 4096  # regions of stretches that are there to be looked at again: some 20 MB of stars, 40 of arcs' bands
+_CELLS = 1 << 15  # stretches whose cells are: a piece that is trimmed when it is loose has all its trims round it
 
 
 class Cell(NamedTuple):
@@ -90,7 +91,7 @@ class Cells:
     def of_stretch(self, stretch: int) -> list[Cell]:
         """The cells of a stretch: none where the wire went through what was cut already."""
         if stretch not in self._made:
-            if len(self._made) > _REMADE:
+            if len(self._made) > _CELLS:
                 self._made.clear()
                 self._touched.clear()
             self._made[stretch] = self._cells(stretch)

@@ -22,7 +22,7 @@ from parser.geometry.curves import Floats, Ints
 from sim.cut.kerf.swept import Box, Swept
 from sim.cut.pieces.cells import Cells, joined_um
 from sim.cut.pieces.gap import FOREVER, OWN, Gap, Uncut, When
-from sim.cut.pieces.hanging import Break, Hanging
+from sim.cut.pieces.hanging import Break, Came, Hanging
 
 _FRAME = 0
 _EXACT = 2  # places on from where a wider wire closes a gap, at which the wire itself does, but for grazing kerfs
@@ -77,10 +77,15 @@ class Cutting(NamedTuple):
 
 
 class _Way(NamedTuple):
-    """The way out of a part: what breaks it, the last break first, and the known parts that it comes upon."""
+    """The way out of a part: what hangs on it in the end, and the stretches that parted that, the last cut first."""
 
-    breaks: list[Break]
-    reached: set[int]
+    hanging: Hanging
+    came: list[Came]
+
+    def parting(self, at: int) -> Break:
+        """What hung together before such a stretch."""
+        stretch, parts, cells = self.came[at]
+        return Break(stretch, self.hanging.parts[:parts], self.hanging.cells[:cells])
 
 
 def moments_of(cutting: Cutting) -> list[FreeMoment | None]:
@@ -108,16 +113,14 @@ class _Frees:
     def look_at(self, part: int) -> None:
         """Find out when a part comes free."""
         way = self._way_out(part)
-        if not way.reached:
+        reached = way.hanging.reached
+        if not reached:
             return
-        on = max(way.reached, key=self._hangs_until)
+        on = max(reached, key=self._hangs_until)
         parted = self._parted[on]
-        last = way.breaks[-1].stretch
-        if parted is None or parted.when >= self._span(last)[0]:
-            own = self._moment(
-                part, way.breaks[-1], lambda other: self._hangs_until(other) if other in self._parted else None
-            )
-            same = (self._parted[other] for other in way.reached if self._hangs_until(other) == own.when)
+        if parted is None or parted.when >= self._span(way.came[-1].stretch)[0]:
+            own = self._moment(part, way.parting(-1), self._known_until)
+            same = (self._parted[other] for other in reached if self._hangs_until(other) == own.when)
             parted = next(same, own) or own
         self._parted[part] = parted
         is_own = parted.contour in self._contours[part]
@@ -137,20 +140,23 @@ class _Frees:
         own = self._contours[part]
         if self._contours[on] == own and self._parted[part] is self._parted[on]:
             return self.moments[on]
-        parts_then = [*(len(later.parts) for later in way.breaks[1:]), np.inf]
-        for each, number in reversed(list(zip(way.breaks, parts_then, strict=True))):
-            round_it = set[int]().union(*(self._contours[other] for other in each.parts if other < len(self._contours)))
-            if number > len(each.parts) and round_it <= own:
-                return self._moment(part, each, lambda _: FOREVER)
+        parts_then = [*(later.parts for later in way.came[1:]), np.inf]
+        for at in range(len(way.came) - 1, -1, -1):
+            if parts_then[at] == way.came[at].parts:
+                continue
+            parting = way.parting(at)
+            round_it = set[int]().union(*(self._contours[each] for each in parting.parts if each < len(self._contours)))
+            if round_it <= own:
+                return self._moment(part, parting, lambda _: FOREVER)
         return None
 
     def _way_out(self, part: int) -> _Way:
-        hanging, breaks = Hanging(self._cells, [part], self._parted.__contains__), list[Break]()
+        hanging, came = Hanging(self._cells, [part], self._parted.__contains__), list[Came]()
         while not hanging.reached and hanging.next >= 0:
-            stretch, before = hanging.next, (len(hanging.parts), len(hanging.cells))
-            if hanging.take_back() and (not breaks or stretch < breaks[-1].stretch):
-                breaks.append(Break(stretch, hanging.parts[: before[0]], hanging.cells[: before[1]]))
-        return _Way(breaks, hanging.reached)
+            before = Came(hanging.next, len(hanging.parts), len(hanging.cells))
+            if hanging.take_back() and (not came or before.stretch < came[-1].stretch):
+                came.append(before)
+        return _Way(hanging, came)
 
     def _hung_um(self, part: int, parting: Break, left: list[shapely.Polygon]) -> shapely.Polygon:
         """What hung together with a part, with some more that is left of the stretch that parted it."""

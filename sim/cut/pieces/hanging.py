@@ -51,7 +51,7 @@ class Hanging:
         stretch = self.next
         _, at, node, stretches = heapq.heappop(self._todo)
         self._look(node, _NearStretches(stretches.near[1:], stretches.rest), at)
-        new = [each for each in self._cells_beside(node, stretch) if each not in self._seen]
+        new = list(self._new_beside(node, stretch))
         for each in new:
             self._take(each)
         return bool(new)
@@ -82,14 +82,25 @@ class Hanging:
         if len(near):
             heapq.heappush(self._todo, (-int(near[0]), at, node, _NearStretches(near, rest)))
 
-    def _cells_beside(self, node: Node, stretch: int) -> Iterator[CellAt]:
+    def _new_beside(self, node: Node, stretch: int) -> Iterator[CellAt]:
+        """Cells of a stretch that touch a node, and have not come back yet."""
         for number, cell in enumerate(self._cells.of_stretch(stretch)):
             at = CellAt(stretch, number)
+            if at in self._seen:
+                continue
             if isinstance(node, CellAt):
-                if node != at and touch(self._cells.cell(node), cell):
+                if touch(self._cells.cell(node), cell):
                     yield at
             elif node in self._cells.touched(at):
                 yield at
+
+
+class Came(NamedTuple):
+    """A stretch with which more came, earlier than all before, and how many parts and cells there were then."""
+
+    stretch: int
+    parts: int
+    cells: int
 
 
 class Break(NamedTuple):

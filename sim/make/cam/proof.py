@@ -174,7 +174,9 @@ def _at_fault(proof: Proof, run: DryRun, of_cut: tuple[Finding, ...], plan: CutP
     cut_of, by_number = _cut_of_block(run.toolpath), {cut.figure.number: cut.figure for cut in plan.cuts}
     what = {plan.cuts[cut_of[each.block]].figure.number: each.code for each in proof.counting}
     of_path = {fault.figure: fault.name for fault in reversed(proof.faults)}
-    what = of_path if len({**what, **of_path}) == len(by_number) else {**what, **of_path}
+    what |= of_path
+    if len(what) == len(by_number):
+        what = of_path
     if len(what) == len(by_number):
         return ()
     return tuple(NotProved(number, what[number]) for number in sorted(what))

@@ -99,14 +99,14 @@ def _entry(done: MadeProgram, placement: Placement) -> PlannedEntry:
     path = done.wire_way
     rows, cuts = runs(path).tolist(), done.plan.cuts
     spans = list(zip(cuts, rows, strict=True)) if len(rows) == len(cuts) else []
-    at_um = placed(path, placement).start_um
-    figures = [_figure(cut, span, place(at_um[span[0]]), placement) for cut, span in spans]
+    laid = placed(path, placement)
+    figures = [_figure(cut, span, place(laid.start_um[span[0]]), placement) for cut, span in spans]
     length = f"{mm(float(path.length_um[~path.is_jump].sum())):.3f}"
     sum_ = bilingual("open.planned", figures=numbered({"figure": len(cuts)}), length=length)
     checked = zip(*(to_check(done.plan, language) for language in LANGUAGES), strict=True)
     row_pass, is_left = _passes_of_rows(path, spans, placement)
     return {
-        "path": exact_columns(placed(path, placement)),
+        "path": exact_columns(laid),
         "is_lead": leads_shown(path),
         "row_pass": row_pass.tolist(),
         "is_left": is_left.tolist(),
