@@ -93,25 +93,27 @@ def _run(axis, steps, sample_s, tick_s, into):  # type: ignore[no-untyped-def]
     """Fill in the places of the slide at the samples, and how far it comes; what its motor lost in all."""
     at_um, farthest = into
     at = velocity = lost = lost_either_way = 0.0
-    span, sample = (0, 0), 0
-    for number in range(int(sample_s[-1] / tick_s) + 2):
-        now = number * tick_s
+    span, sample, begin_s, number = (0, 0), 0, 0.0, 0
+    while sample < len(sample_s):
+        now, number = begin_s + number * tick_s, number + 1
         while sample < len(sample_s) and sample_s[sample] <= now:
             at_um[sample] = at
             sample += 1
         motor, speed, span = _motor(axis, steps, now, span)
+        turn_s, tick = _next_turn(axis, steps, span), tick_s
+        if now + tick_s >= turn_s:
+            begin_s, number, tick = turn_s, 0, turn_s - now
         slip = _slip(axis, motor - lost - at)
         lost, lost_either_way = lost + slip, lost_either_way + abs(slip)
         force = _force(axis, motor - lost - at, speed, velocity)
         farthest[0], farthest[1] = max(farthest[0], abs(velocity)), max(farthest[1], abs(motor - lost - at))
         farthest[2] = max(farthest[2], abs(force))
-        velocity += tick_s * (force - axis.viscous * velocity)
-        rub = axis.friction * tick_s
+        velocity += tick * (force - axis.viscous * velocity)
+        rub = axis.friction * tick
         velocity = max(velocity - rub, 0.0) + min(velocity + rub, 0.0)
-        at += tick_s * velocity
+        at += tick * velocity
         if at >= axis.high_um or at <= axis.low_um:
             at, velocity = min(max(at, axis.low_um), axis.high_um), 0.0
-    at_um[sample:] = at
     return lost if lost != 0.0 else lost_either_way
 
 
@@ -129,6 +131,14 @@ def _motor(axis, steps, now, span):  # type: ignore[no-untyped-def]
         motor += way * (now - t_s[step]) / axis.step_time_s
         speed += way / axis.step_time_s
     return motor, speed, (done, begun)
+
+
+@numba.njit
+def _next_turn(axis, steps, span):  # type: ignore[no-untyped-def]
+    """When the next step begins or the oldest one ends: a tick ends there, or its error is that of the time."""
+    (t_s, _), (done, begun) = steps, span
+    begin_s = t_s[begun] if begun < len(t_s) else math.inf
+    return min(begin_s, t_s[done] + axis.step_time_s) if done < begun else begin_s
 
 
 @numba.njit
