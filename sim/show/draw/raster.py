@@ -4,6 +4,7 @@ It draws larger, three times up to a width of 2400 px and else twice, and takes 
 every edge.
 """
 
+import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from functools import lru_cache
@@ -24,7 +25,8 @@ FINEST: Final = 3
 COARSER_FROM_PX: Final = 2400  # an A3 page at 300 dpi, drawn three times as large, would take 470 MB
 THIN_PX: Final = 4.0  # up to here the slanted ends of pygame's lines do not show
 EDGE_FINE: Final = 5.0
-BAND_PX: Final = 256  # rows that are smoothed at a time, so that a large page is never there twice
+RGBX: Final = (0x0000FF, 0x00FF00, 0xFF0000, 0) if sys.byteorder == "little" else (0xFF << 24, 0xFF << 16, 0xFF << 8, 0)
+"""Red, green and blue in three bytes in turn, and one of no use: so PIL reads the pixels where they are."""
 
 
 class Raster:
@@ -34,7 +36,7 @@ class Raster:
         self.width_px, self.height_px = width_px, height_px
         self._theme = theme
         self._scale = FINEST if width_px <= COARSER_FROM_PX else FINEST - 1
-        self._surface = pygame.Surface((width_px * self._scale, height_px * self._scale), depth=24)
+        self._surface = pygame.Surface((width_px * self._scale, height_px * self._scale), depth=32, masks=RGBX)
         self._surface.fill(theme[Paint.PAGE])
 
     def polyline(self, points: Floats, paint: Paint, width: float) -> None:
@@ -137,13 +139,8 @@ class Raster:
 
     def image(self) -> Image.Image:
         """Give the page as an RGB picture."""
-        made = Image.new("RGB", (self.width_px, self.height_px))
-        for top in range(0, self.height_px, BAND_PX):
-            wide, tall = self.width_px * self._scale, min(BAND_PX, self.height_px - top) * self._scale
-            band = self._surface.subsurface((0, top * self._scale, wide, tall))
-            pixels = Image.frombytes("RGB", (wide, tall), pygame.image.tobytes(band, "RGB"))
-            made.paste(pixels.reduce(self._scale), (0, top))
-        return made
+        pixels = Image.frombuffer("RGBX", self._surface.get_size(), self._surface.get_buffer(), "raw", "RGBX", 0, 1)
+        return pixels.reduce(self._scale).convert("RGB")
 
 
 @lru_cache(maxsize=32)  # each has its file open

@@ -6,7 +6,7 @@ Which pass went over each pixel of the plot last: worked out once for a view, as
 
 Where things stand on a frame: title, plot, read-outs and the strip of the run.
 
-A drawing surface whose pixels are had quickly, and that may begin with a part of a frame.
+A drawing surface that may begin with a part of a frame.
 """
 
 from collections.abc import Iterable, Sequence
@@ -15,7 +15,6 @@ from typing import Final, Literal, NamedTuple
 import numpy as np
 import shapely
 from numpy.typing import NDArray
-from PIL import Image
 
 from parser.geometry.curves import Floats, Ints
 from sim.measure.compare.starts import laid_loops
@@ -166,8 +165,6 @@ def _within(line: Floats, box: Box) -> Floats:
     return np.stack([line[0] + max(first, 0.0) * by, line[0] + max(last, first) * by])
 
 
-_RED_LAST = 0xFF0000
-
 Pixels = NDArray[np.uint8]
 """(h, w, 3) red, green and blue."""
 
@@ -186,10 +183,7 @@ class Plate(Raster):
 
     def pixels(self) -> Pixels:
         """The page as pixels, in an array of their own."""
-        # The surface's own bytes: pygame would turn each pixel round to hand them over as RGB.
-        order = "BGR" if self._surface.get_masks()[0] == _RED_LAST else "RGB"
-        data, size, pitch = self._surface.get_buffer().raw, self._surface.get_size(), self._surface.get_pitch()
-        return np.array(Image.frombuffer("RGB", size, data, "raw", order, pitch, 1).reduce(self._scale))
+        return np.array(self.image())
 
 
 def plate_over(pixels: Pixels, theme: Theme) -> Plate:
