@@ -9,7 +9,7 @@ import numpy as np
 import shapely
 from shapely.geometry.base import BaseGeometry
 
-from parser.geometry.curves import Bools, Floats, Ints
+from parser.geometry.curves import Bools, Floats, Ints, box_of
 from parser.toolpath import Point
 from sim.cut.pieces.pieces import Pieces
 from sim.cut.regions import Regions
@@ -92,14 +92,14 @@ class Room(NamedTuple):
         swept = np.stack([np.broadcast_to(corner, (len(by_um), *corner.shape)), corner + by_um[:, None]], axis=1)
         ways = shapely.convex_hull(shapely.multipoints(swept.reshape(len(by_um), -1, 2)))
         near = np.unique(self.walls.run_boxes.query(ways, predicate="intersects")[1])
-        (lowest, highest), low, high = self._bounds_um(), corner.min(axis=0), corner.max(axis=0)
+        (lowest, highest), (low, high) = self._bounds_um(), box_of(corner)
         farthest_um = np.hypot(*(np.maximum(high, highest) - np.minimum(low, lowest)))
         return self._lines(near), bool(far_um >= farthest_um)
 
     def _bounds_um(self) -> Floats:
         """Lowest and highest (x, y) of all walls."""
         if self.opening is None:
-            return np.stack([self.walls.corner_um.min(axis=0), self.walls.corner_um.max(axis=0)])
+            return box_of(self.walls.corner_um)
         bounds: Floats = shapely.bounds(self.walls.rings.geometries[self.opening]).reshape(2, 2)
         return bounds
 
@@ -153,7 +153,7 @@ def room_of(walls: Walls, outline_um: shapely.Polygon, wire_um: Point, t_s: floa
     center = shapely.get_coordinates(outline_um.centroid)[0]
     corner = np.vstack([shapely.get_coordinates(outline_um.exterior), wire_um])
     radius = np.hypot(*(corner[:-1] - center).T).max()
-    boxes = np.array([[corner.min(axis=0), corner.max(axis=0)], [center - radius, center + radius]])
+    boxes = np.array([box_of(corner), [center - radius, center + radius]])
     place = outline_um.representative_point()
     near = walls.rings.query(place)
     near = near[(walls.until_s[near] > t_s) & (walls.area_um2[near] > outline_um.area)]

@@ -18,7 +18,7 @@ import numpy as np
 import shapely
 
 from controller.compiled.loops import compiled, loop_part
-from parser.geometry.curves import Floats, Ints, total_before
+from parser.geometry.curves import Floats, Ints, box_of, total_before
 from parser.shape.contours import Contour
 from sim.table.trace import Trace
 
@@ -37,7 +37,7 @@ def last_beside(wire_um: Floats, place_um: Floats, within_um: float, alike_um: f
     last = np.full(len(place_um), NOBODY, dtype=np.int64)
     if not len(wire_um) or not len(place_um):
         return last
-    low, cell = np.minimum(wire_um.min(axis=0), place_um.min(axis=0)), within_um + alike_um
+    low, cell = np.minimum(box_of(wire_um)[0], box_of(place_um)[0]), within_um + alike_um
     wire, place = (_cells((each - low) / cell) for each in (wire_um, place_um))
     order = np.argsort(wire, kind="stable")
     sorted_ = np.ascontiguousarray(wire_um[order]), wire[order], order

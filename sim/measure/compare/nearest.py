@@ -18,7 +18,7 @@ import numpy as np
 from controller.compiled.loops import compiled, loop_part
 from parser.findings.errors import DrawingError
 from parser.geometry.along import places
-from parser.geometry.curves import Curves, Floats, Ints
+from parser.geometry.curves import Curves, Floats, Ints, box_of
 from sim.measure.curve_rows import curve_rows, distance_from
 
 PIECES_OF_LEAF: Final = 4
@@ -77,7 +77,8 @@ def _pieces(curves: Curves) -> tuple[Ints, Floats, Floats]:
 
 def _z_order(place_um: Floats) -> Ints:
     """Numbers (m,) that tell in which order the places (m, 2) stand."""
-    low, size = place_um.min(axis=0), float(np.ptp(place_um, axis=0).max())
+    low, high = box_of(place_um)
+    size = float((high - low).max())
     column, line = ((place_um - low) * ((_CELLS - 1) / size if size else 0.0)).astype(np.int64).T
     return _spread_bits(column) | _spread_bits(line) << 1
 

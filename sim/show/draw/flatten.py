@@ -12,7 +12,7 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from parser.geometry.along import headings, places
-from parser.geometry.curves import Bools, Curves, Floats, Ints
+from parser.geometry.curves import Bools, Curves, Floats, Ints, box_of, extents
 
 
 def bounds_um(toolpath: Curves) -> Floats:
@@ -27,24 +27,7 @@ def bounds_um(toolpath: Curves) -> Floats:
     -------
     (2, 2) float64, µm: lowest and highest (x, y).
     """
-    points = np.concatenate([toolpath.start_um, toolpath.end_um, _arc_extremes_um(toolpath)])
-    return np.stack([points.min(axis=0), points.max(axis=0)])
-
-
-def _arc_extremes_um(toolpath: Curves) -> Floats:
-    arc = toolpath.is_arc
-    start, sweep = toolpath.start_angle_rad[arc], toolpath.sweep_rad[arc]
-    low, high = np.minimum(start, start + sweep), np.maximum(start, start + sweep)
-    quarter = np.ceil(low / (np.pi / 2))[:, None] + np.arange(4)  # four directions in a row are all there are
-    angle = np.asarray(quarter * (np.pi / 2), dtype=np.float64)
-    reached = angle <= high[:, None]
-    points = _on_circle_um(toolpath.center_um[arc][:, None], toolpath.radius_um[arc][:, None], angle)
-    return np.asarray(points[reached], dtype=np.float64)
-
-
-def _on_circle_um(center_um: Floats, radius_um: Floats, angle_rad: Floats) -> Floats:
-    unit = np.stack([np.cos(angle_rad), np.sin(angle_rad)], axis=-1)
-    return np.asarray(center_um + radius_um[..., None] * unit, dtype=np.float64)
+    return box_of(np.concatenate(extents(toolpath)))
 
 
 def flatten(toolpath: Curves, tolerance_um: float) -> tuple[Floats, Ints]:

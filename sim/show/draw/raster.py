@@ -4,7 +4,6 @@ It draws larger, three times up to a width of 2400 px and else twice, and takes 
 every edge.
 """
 
-import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from functools import lru_cache
@@ -25,8 +24,6 @@ FINEST: Final = 3
 COARSER_FROM_PX: Final = 2400  # an A3 page at 300 dpi, drawn three times as large, would take 470 MB
 THIN_PX: Final = 4.0  # up to here the slanted ends of pygame's lines do not show
 EDGE_FINE: Final = 5.0
-RGBX: Final = (0x0000FF, 0x00FF00, 0xFF0000, 0) if sys.byteorder == "little" else (0xFF << 24, 0xFF << 16, 0xFF << 8, 0)
-"""Red, green and blue in three bytes in turn, and one of no use: so PIL reads the pixels where they are."""
 
 
 class Raster:
@@ -36,7 +33,9 @@ class Raster:
         self.width_px, self.height_px = width_px, height_px
         self._theme = theme
         self._scale = FINEST if width_px <= COARSER_FROM_PX else FINEST - 1
-        self._surface = pygame.Surface((width_px * self._scale, height_px * self._scale), depth=32, masks=RGBX)
+        # numpy has large pages of memory for so much: a surface's own takes four times as long to be there at all.
+        self._pixels = np.empty((height_px * self._scale, width_px * self._scale, 4), dtype=np.uint8)
+        self._surface = pygame.image.frombuffer(self._pixels.data, self._pixels.shape[1::-1], "RGBX")
         self._surface.fill(theme[Paint.PAGE])
 
     def polyline(self, points: Floats, paint: Paint, width: float) -> None:
@@ -139,7 +138,7 @@ class Raster:
 
     def image(self) -> Image.Image:
         """Give the page as an RGB picture."""
-        pixels = Image.frombuffer("RGBX", self._surface.get_size(), self._surface.get_buffer(), "raw", "RGBX", 0, 1)
+        pixels = Image.frombuffer("RGBX", self._surface.get_size(), self._pixels, "raw", "RGBX", 0, 1)
         return pixels.reduce(self._scale).convert("RGB")
 
 

@@ -6,7 +6,7 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from parser.geometry.curves import Bools, Floats, total_before
+from parser.geometry.curves import Bools, Floats, box_of, total_before
 from sim.show.draw.layout import Box, View
 from sim.show.draw.silent_pygame import pygame
 from sim.table.trace import Trace
@@ -97,7 +97,7 @@ class CutMap:
         if low == high:
             return Span(0, 0, 0, 0)
         centers = self._discs.centers[low:high]
-        return self._near(centers.min(axis=0), centers.max(axis=0))
+        return self._near(*box_of(centers))
 
     def tip(self, center: Floats) -> tuple[Span, Levels]:
         """A disc of the kerf about any place (2,) px of the page, for where the wire is between two discs."""

@@ -13,7 +13,7 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from parser.findings.catalogue import Language
-from parser.geometry.curves import Floats
+from parser.geometry.curves import Floats, box_of
 from sim.run.course import Course, Moment
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
@@ -295,9 +295,8 @@ class Screen:
 def _bounds_um(course: Course) -> Floats:
     """Box (2, 2) around all that the plot is to show."""
     scenario, half = course.run.scenario, course.run.scenario.wire.kerf_um / 2.0
-    wire = course.trace.wire_um
-    box = bounds_um(course.run.toolpath)
-    box = np.stack([np.minimum(box[0], wire.min(axis=0)) - half, np.maximum(box[1], wire.max(axis=0)) + half])
+    box = box_of(np.concatenate([bounds_um(course.run.toolpath), box_of(course.trace.wire_um)]))
+    box = box + half * np.array([[-1.0], [1.0]])
     missing = max(LEAST_UM - float((box[1] - box[0]).max()), 0.0)
     box = box + np.array([[-missing / 2.0], [missing / 2.0]])
     return Bodies(scenario.work_um, [clamp.outline_um for clamp in scenario.clamps]).around(box)
@@ -305,8 +304,8 @@ def _bounds_um(course: Course) -> Floats:
 
 def _around(places: Floats, reach: float) -> Box:
     """Box about places (n, 2), on whole pixels."""
-    low, high = np.floor(places.min(axis=0) - reach).tolist(), np.ceil(places.max(axis=0) + reach).tolist()
-    return Box(*low, *high)
+    low, high = box_of(places)
+    return Box(*np.floor(low - reach).tolist(), *np.ceil(high + reach).tolist())
 
 
 def _met(box: Box, plot: Box) -> Box | None:

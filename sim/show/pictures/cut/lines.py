@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 
 import numpy as np
 
-from parser.geometry.curves import Bools, Floats, Ints
+from parser.geometry.curves import Bools, Floats, Ints, box_of
 from parser.toolpath import Toolpath
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas, dashes_along
@@ -57,9 +57,8 @@ def path_bounds_um(cut: Cut) -> Floats:
     """Box around path, contour and kerf, (2, 2)."""
     boxes = [bounds_um(toolpath) for toolpath in (cut.toolpath, cut.contour) if toolpath is not None]
     if cut.trace is not None:
-        boxes.append(np.stack([cut.trace.wire_um.min(axis=0), cut.trace.wire_um.max(axis=0)]))
-    low, high = np.min([box[0] for box in boxes], axis=0), np.max([box[1] for box in boxes], axis=0)
-    return np.asarray(np.stack([low, high]) + cut.kerf_um / 2 * np.array([[-1.0], [1.0]]), dtype=np.float64)
+        boxes.append(box_of(cut.trace.wire_um))
+    return box_of(np.concatenate(boxes)) + cut.kerf_um / 2 * np.array([[-1.0], [1.0]])
 
 
 def shown_bounds_um(cut: Cut) -> Floats:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 
 import numpy as np
 
-from parser.geometry.curves import Floats
+from parser.geometry.curves import Floats, box_of
 from parser.units import mm
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
@@ -119,7 +119,7 @@ def draw_table(canvas: Canvas, page: Page, say: Words, travel_um: Floats, runs_p
     """
     unit, size = page.unit, style.NOTE * page.unit
     points = np.concatenate([travel_um, *(page.view.to_um(run) for run in runs_px)])
-    low, high = points.min(axis=0), points.max(axis=0)
+    low, high = box_of(points)
     scale = style.TABLE * unit / float((high - low).max())
     right, top = page.width_px - style.EDGE * unit, (style.HEAD - style.TABLE) / 2 * unit
     view = View(scale, right - float(high[0]) * scale, top + float(high[1]) * scale)

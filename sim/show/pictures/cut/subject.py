@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 import numpy as np
 
 from parser.findings.findings import Finding
-from parser.geometry.curves import Bools, Floats
+from parser.geometry.curves import Bools, Floats, box_of
 from parser.shape.passes import Passes
 from parser.toolpath import Toolpath
 from sim.setup.obstacles import Outline
@@ -42,7 +42,7 @@ class Bodies(NamedTuple):
         boxes = [np.stack([np.min(body, axis=0), np.max(body, axis=0)]) for body in self._all()]
         met = [np.clip(box, *near) for box in boxes if (box[0] <= near[1]).all() and (box[1] >= near[0]).all()]
         corners = np.concatenate([bounds_um, *met])
-        return np.stack([corners.min(axis=0), corners.max(axis=0)])
+        return box_of(corners)
 
     def _all(self) -> list[Outline]:
         return [*([] if self.work_um is None else [self.work_um]), *self.clamps_um]
