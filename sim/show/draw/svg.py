@@ -52,16 +52,16 @@ class Svg:
         self.width_px, self.height_px = width_px, height_px
         self._theme = theme
         self._made: list[str] = []
-        self._strokes: dict[str, list[str]] = {}  # path data by attributes: those that were stroked last
+        self._strokes: dict[str, list[Floats]] = {}  # lines by attributes: those that were stroked last
         self._rect(Box(0.0, 0.0, width_px, height_px), Paint.PAGE)
 
     def polyline(self, points: Floats, paint: Paint, width: float) -> None:
         """Stroke a line through `points`, (n, 2) with n ≥ 1, with round corners and ends."""
-        self._stroke(_path([points]), paint, width)
+        self._stroke([points], paint, width)
 
     def dashed(self, points: Floats, paint: Paint, width: float, dash: float, gap: float) -> None:
         """Stroke each chord of `points`, (n, 2), with dashes of length `dash` and gaps of length `gap`."""
-        self._stroke(_path(dashes(points, dash, gap)), paint, width)
+        self._stroke(dashes(points, dash, gap), paint, width)
 
     def ring(self, center: Floats, radius: float, paint: Paint, width: float) -> None:
         """Stroke a circle; `radius` is that of its middle line."""
@@ -123,20 +123,21 @@ class Svg:
         sized = f'<svg width="{width_px}" height="{height_px}" '
         return '<?xml version="1.0" encoding="UTF-8"?>\n' + self.fragment(label).replace("<svg ", sized, 1) + "\n"
 
-    def _stroke(self, path: str, paint: Paint, width: float) -> None:
+    def _stroke(self, lines: Iterable[Floats], paint: Paint, width: float) -> None:
         """Strokes alike in turn are one path: thousands of whiskers have no attributes of their own."""
-        if not path:
+        drawn = [line for line in lines if len(line)]
+        if not drawn:
             return
         line = f'fill="none" stroke-width="{_figure(width)}" stroke-linecap="round" stroke-linejoin="round"'
         attributes = f"{self._colour('s', paint)} {line}"
         if attributes not in self._strokes:
             self._add()
             self._strokes[attributes] = []
-        self._strokes[attributes].append(path)
+        self._strokes[attributes] += drawn
 
     def _add(self, *elements: str) -> None:
         """Add elements over what was stroked before."""
-        self._made += [f'<path d="{"".join(paths)}" {attributes}/>' for attributes, paths in self._strokes.items()]
+        self._made += [f'<path d="{_path(lines)}" {attributes}/>' for attributes, lines in self._strokes.items()]
         self._strokes.clear()
         self._made += elements
 

@@ -186,9 +186,10 @@ def bins_of(samples: Samples) -> Floats:
 
 
 def shares(samples: Samples, off_um: Floats, bins: Floats) -> Floats:
-    """Share (k,) of the path cut on which deviations (n,) lie in each of k bins; 0 where nothing was cut."""
+    """Share (k,) of the path cut on which deviations (n,) lie in each of k even bins; 0 where nothing was cut."""
     weight = path_of_each(samples.along_um, samples.cutting)
-    length, _ = np.histogram(off_um, bins=bins, weights=weight)
+    # By their number and range: numpy sorts all deviations for bins that may be uneven.
+    length, _ = np.histogram(off_um, bins=len(bins) - 1, range=(bins[0], bins[-1]), weights=weight)
     return np.asarray(length / max(float(weight.sum()), np.finfo(np.float64).tiny), dtype=np.float64)
 
 
