@@ -89,6 +89,8 @@ class Contour(NamedTuple):
         running along its own path once more.
     in_kerf
         Whether it begins and ends in the kerf of contours that are cut before it, which close it.
+    is_closed_later
+        Whether a later contour closes it, which begins at its start hole and cuts the tab that it leaves.
     encloses
         Whether it turns back on itself anywhere; a path that always runs forward in some direction is a parting cut
         and need not close.
@@ -103,11 +105,12 @@ class Contour(NamedTuple):
     returns: bool
     encloses: bool
     in_kerf: bool = False
+    is_closed_later: bool = False
 
     @property
     def is_open(self) -> bool:
         """Whether it should close and does not."""
-        return self.encloses and not (self.returns or self.in_kerf)
+        return self.encloses and not (self.returns or self.in_kerf or self.is_closed_later)
 
 
 def runs(toolpath: Toolpath) -> Ints:
@@ -152,7 +155,32 @@ def find_contours(toolpath: Toolpath, corner_um: Ints) -> tuple[Contour, ...]:
     in_kerf = are_in_kerf(toolpath, ends, np.array([found[at].tolerance_um for at in left]))
     for at in np.array(left, dtype=np.int64)[in_kerf].tolist():
         found[at] = found[at]._replace(in_kerf=True)
+    left = [at for at in left if found[at].is_open]
+    for at, closer in zip(left, closers(toolpath, np.array(left, dtype=np.int64)).tolist(), strict=True):
+        found[at] = found[at]._replace(is_closed_later=closer >= 0)
     return tuple(found)
+
+
+def closers(toolpath: Toolpath, wanted: Ints) -> Ints:
+    """(k,) the first later contour that closes each of the contours `wanted`; −1 where none does.
+
+    It begins where that one begins, at the same start hole, and runs over the place where that one ends.
+    """
+    found = np.full(len(wanted), -1, dtype=np.int64)
+    if not len(wanted):
+        return found
+    first, past = runs(toolpath).T
+    start, end = toolpath.start_um[first[wanted]], toolpath.end_um[past[wanted] - 1]
+    near = near_places(toolpath.picked(first), start, CLOSED_WITHIN_UM)
+    off = np.hypot(*(toolpath.start_um[first[near.row]] - start[near.other]).T)
+    later = np.flatnonzero((off <= CLOSED_WITHIN_UM) & (near.row > wanted[near.other]))
+    pairs = sorted(zip(near.other[later].tolist(), near.row[later].tolist(), strict=True))
+    for at, other in pairs:
+        rows = np.arange(first[other], past[other])
+        off, _ = distance_to_curves(toolpath, rows, np.full(len(rows), end[at, 0]), np.full(len(rows), end[at, 1]))
+        if found[at] < 0 and off.min() <= CLOSED_WITHIN_UM:
+            found[at] = other
+    return found
 
 
 def are_in_kerf(toolpath: Toolpath, ends: Ints, tolerance_um: Floats) -> Bools:

@@ -9,10 +9,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from parser.geometry.along import places
 from parser.geometry.curves import Bools, Floats, Ints, extents
 from parser.geometry.distance import distance_to_curves
 from parser.geometry.near import distinct, near_places
-from parser.shape.contours import CLOSED_WITHIN_UM, runs
+from parser.shape.contours import CLOSED_WITHIN_UM, closers, runs
 from parser.shape.loops import find_loops, several_loops
 from parser.shape.open_edges import (
     AT_END_UM,
@@ -35,6 +36,7 @@ _LEAST_SHARE = 0.6  # of a pass that runs beside another one; corners are rounde
 _LEAST_SENSE = 0.8  # all of a pass runs one way
 _MOST_LIKE = 8  # stretches whose boxes one is held against: the latest before it that begin near
 _MOST_HELD = 2  # of these, stretches that one is held against itself
+_ON_EDGE_UM = 60.0  # of an edge that is left in one pass, its tab is cut on the same way, but for the lag of a wire
 _CELLS = 1 << 31  # more cells than any path has across
 
 
@@ -94,11 +96,12 @@ def _boxes(toolpath: Toolpath, stretches: Stretches) -> tuple[Floats, Floats]:
 
 
 def cut_elsewhere(
-    toolpath: Toolpath, contour: Ints, sections: dict[int, list[Section]], wanted: Ints
+    toolpath: Toolpath, contour: Ints, sections: dict[int, list[Section]], wanted: Ints, within_um: float = AT_END_UM
 ) -> dict[int, tuple[int, list[Section]]]:
     """Of the contours `wanted` those that cut a tab, each with the contour that left it and with its own sections.
 
-    `contour` (n,) is each row's; `sections` are those of the contours that leave an edge open.
+    `contour` (n,) is each row's; `sections` are those of the contours that leave an edge open. The wire comes within
+    `within_um` of both ends of the edge.
     """
     bounds = [(first, past) for first, past in runs(toolpath).tolist()]
     left = [at for at, several in sections.items() if not any(section.is_tab for section in several)]
@@ -109,7 +112,7 @@ def cut_elsewhere(
     for number, at in zip(*_at_both_ends(toolpath, rows, contour, [sections[at][-1] for at in left]), strict=True):
         section = sections[left[number]][-1]
         edge = np.arange(section.first, section.last + 1)
-        several = sections_elsewhere(toolpath, bounds[at], edge)
+        several = sections_elsewhere(toolpath, bounds[at], edge, within_um)
         if bounds[at][0] > section.last and any(each.is_tab for each in several):
             found[at] = left[number], several
     return found
@@ -162,8 +165,35 @@ class Cuts(NamedTuple):
         return Stretches(self.first, self.last)
 
 
+class _Found(NamedTuple):
+    """Passes that close, sections by the contours that leave an edge open, and the numbers of the other contours."""
+
+    passes: Cuts
+    sections: dict[int, list[Section]]
+    others: Ints
+
+
 def find_cuts(toolpath: Toolpath, contour: Ints) -> Cuts:
     """Stretches of the contours; `contour` (n,) is each row's, −1 on jumps."""
+    found = _passes_and_sections(toolpath, contour)
+    left = _left_open(toolpath, found.others)
+    tabs: dict[int, tuple[int, list[Section]]] = {}
+    if left:
+        closing = distinct(closers(toolpath, np.array(sorted(left), dtype=np.int64)))
+        tabs = cut_elsewhere(toolpath, contour, left, closing, _ON_EDGE_UM)
+        contour = _behind_tabs(toolpath, contour, left, tabs)
+        found = _passes_and_sections(toolpath, contour)
+    elsewhere = cut_elsewhere(toolpath, contour, found.sections, found.others)
+    others = _without(found.others, np.array(sorted(elsewhere), dtype=np.int64))
+    open_edges = found.sections | left
+    rows = [(each, at, several[0].first) for at, several in open_edges.items() for each in several]
+    rows += [(each, at, open_edges[of][0].first) for at, (of, several) in tabs.items() for each in several]
+    rows += [(each, at, open_edges[of][0].first) for at, (of, several) in elsewhere.items() for each in several]
+    cuts = _joined(found.passes, _of_sections(rows), *_cut_once(toolpath, contour, others))
+    return cuts.take(np.argsort(cuts.first))
+
+
+def _passes_and_sections(toolpath: Toolpath, contour: Ints) -> _Found:
     first, last, is_sure = several_loops(toolpath, contour)
     closed = np.ones(len(first), dtype=np.bool_)
     edge = edges_of(toolpath, Stretches(first, last))
@@ -173,13 +203,52 @@ def find_cuts(toolpath: Toolpath, contour: Ints) -> Cuts:
     opened = np.array(sorted(sections), dtype=np.int64)
     together = np.isin(loops.contour, loops.contour[is_trimmed]) & ~np.isin(loops.contour, opened)
     passes = loops.take(together & (is_sure | is_trimmed))
-    others = _without(np.arange(contour.max(initial=-1) + 1), np.concatenate([opened, passes.contour]))
-    elsewhere = cut_elsewhere(toolpath, contour, sections, others)
-    others = _without(others, np.array(sorted(elsewhere), dtype=np.int64))
-    rows = [(each, at, several[0].first) for at, several in sections.items() for each in several]
-    rows += [(each, at, sections[of][0].first) for at, (of, several) in elsewhere.items() for each in several]
-    found = _joined(passes, _of_sections(rows), *_cut_once(toolpath, contour, others))
-    return found.take(np.argsort(found.first))
+    others = _without(distinct(contour[contour >= 0]), np.concatenate([opened, passes.contour]))
+    return _Found(passes, sections, others)
+
+
+def _behind_tabs(
+    toolpath: Toolpath, contour: Ints, left: dict[int, list[Section]], tabs: dict[int, tuple[int, list[Section]]]
+) -> Ints:
+    """The contours (n,) without those that leave a tab, and of those that cut one what follows it from the start hole.
+
+    There passes may follow over the same edge, once the slug is out.
+    """
+    behind, bounds = contour.copy(), runs(toolpath)
+    for at in left:
+        behind[slice(*bounds[at])] = -1
+    for at, (_, several) in tabs.items():
+        first, past = bounds[at].tolist()
+        rows = np.arange(several[-1].last + 1, past)
+        back = np.hypot(*(toolpath.end_um[rows] - toolpath.start_um[first]).T) <= CLOSED_WITHIN_UM
+        behind[first : int(rows[np.argmax(back)]) + 1 if back.any() else past] = -1
+    return behind
+
+
+def _left_open(toolpath: Toolpath, wanted: Ints) -> dict[int, list[Section]]:
+    """Of the contours `wanted` those that leave a tab for a later one, with the one pass that each makes, by contour.
+
+    Both come to the contour by the same lead.
+    """
+    bounds = runs(toolpath)
+    first, past = bounds[wanted].T
+    is_open = np.hypot(*(toolpath.end_um[past - 1] - toolpath.start_um[first]).T) > CLOSED_WITHIN_UM
+    left = wanted[is_open]
+    found: dict[int, list[Section]] = {}
+    for at, closer in zip(left.tolist(), closers(toolpath, left).tolist(), strict=True):
+        (low, high), (other, _) = bounds[at].tolist(), bounds[closer].tolist()
+        lead = 0
+        while closer >= 0 and low + lead < high and _is_one_way(toolpath, low + lead, other + lead):
+            lead += 1
+        if 0 < lead < high - low:
+            found[at] = [Section(low + lead, high - 1, is_tab=False)]
+    return found
+
+
+def _is_one_way(toolpath: Toolpath, row: int, other: int) -> bool:
+    """Whether two rows that begin at one place run one way: their middles and ends are one place each."""
+    place = places(toolpath, np.array([row, row, other, other]), np.array([0.5, 1.0, 0.5, 1.0]))
+    return bool((np.hypot(*(place[:2] - place[2:]).T) <= CLOSED_WITHIN_UM).all())
 
 
 def _without(numbers: Ints, gone: Ints) -> Ints:

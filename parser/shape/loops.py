@@ -20,6 +20,7 @@ from parser.toolpath import Toolpath
 _LEAD_IN_BLOCKS = 4  # at most; the loop begins no later
 _MOST_PAIRS = 1_000_000  # of blocks of a loop and corners of the turns within it
 _ROUNDING_UM = 1.0
+_THIN_UM = 3.0  # of area to the length of a loop: of a slot it is half of its width
 
 
 class Loops(NamedTuple):
@@ -197,6 +198,16 @@ def part_sides(toolpath: Toolpath, begin: Ints, first: Ints, last: Ints) -> Ints
     return np.where(first > begin, side, 0.0).astype(np.int64)
 
 
+def are_there_and_back(toolpath: Toolpath, first: Ints, last: Ints) -> Bools:
+    """Whether loops (k,) go out and back on one way, as over a tab or by an overcut: they have no area to speak of."""
+    ring, before = _ring(toolpath, first, last), toolpath.before_um
+    joint = toolpath.start_um[first][ring.of]
+    doubled = _doubled_areas(ring.start_um - joint, ring.end_um - joint, ring.turn_rad, toolpath.radius_um[ring.row])
+    enclosed_um2 = 0.5 * np.abs(np.bincount(ring.of, doubled, len(first)))
+    thin: Bools = enclosed_um2 <= _THIN_UM * (before[last + 1] - before[first])
+    return thin
+
+
 def _ring(toolpath: Toolpath, first: Ints, last: Ints) -> _Ring:
     """Blocks of the loops (k,) from `first` to `last`, the last of each cut off where the first begins."""
     number = last - first + 1
@@ -328,7 +339,7 @@ def _at_hole(toolpath: Toolpath, contour: Ints) -> Bools:
 def _by_corners(toolpath: Toolpath, contour: Ints, at_hole: Bools) -> tuple[Ints, Ints]:
     """First and last rows (k,) of loops that end at a corner where they began.
 
-    A way out and back by two blocks is none, nor is one by the start hole.
+    A way out and back is none, nor is one by the start hole.
     """
     first, last = loops_in_order(toolpath, contour)
     row = last - 1
@@ -336,7 +347,7 @@ def _by_corners(toolpath: Toolpath, contour: Ints, at_hole: Bools) -> tuple[Ints
     middle = [places(toolpath, each, np.full(len(each), 0.5)) for each in (row, last)]
     out_and_back = (first == row) & (np.hypot(*(middle[0] - middle[1]).T) <= CLOSED_WITHIN_UM)
     before = np.append(0, np.cumsum(at_hole))
-    is_kept = ~out_and_back & (before[first] == before[last + 1])
+    is_kept = ~out_and_back & ~are_there_and_back(toolpath, first, last) & (before[first] == before[last + 1])
     return first[is_kept], last[is_kept]
 
 

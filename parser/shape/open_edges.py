@@ -190,42 +190,51 @@ def _row_by_row(toolpath: Toolpath, early: Ints, late: Ints) -> tuple[Ints, Floa
     return late[beside_neighbours.at[once]], beside_neighbours.aside_um[once], beside_neighbours.sense[once]
 
 
-def sections_elsewhere(toolpath: Toolpath, bounds: tuple[int, int], edge: Ints) -> list[Section]:
-    """Passes over an open edge of the rows `edge`, and over its tab, in another contour; `bounds` are of that one."""
-    return [section._replace(is_tab=not is_beside) for section, is_beside in _between_ends(toolpath, *bounds, edge)]
+def sections_elsewhere(toolpath: Toolpath, bounds: tuple[int, int], edge: Ints, within_um: float) -> list[Section]:
+    """Passes over an open edge of the rows `edge`, and over its tab, in another contour; `bounds` are of that one.
+
+    They begin and end no farther than `within_um` from the ends of the edge.
+    """
+    found = _between_ends(toolpath, bounds, edge, within_um)
+    return [section._replace(is_tab=not is_beside) for section, is_beside in found]
 
 
 def _sections(toolpath: Toolpath, low: int, past: int, edge: Ints) -> list[Section]:
     """Passes over the open edge of the rows `edge`, several of them, and over its tab."""
-    found = _between_ends(toolpath, low, past, edge)
+    found = _between_ends(toolpath, (low, past), edge, AT_END_UM)
     # What is cut first is the edge, the other one its tab.
     sections = [section._replace(is_tab=is_beside != found[0][1]) for section, is_beside in found]
     return sections if sum(not section.is_tab for section in sections) > 1 else []
 
 
-def _between_ends(toolpath: Toolpath, low: int, past: int, edge: Ints) -> list[tuple[Section, bool]]:
+def _between_ends(
+    toolpath: Toolpath, bounds: tuple[int, int], edge: Ints, within_um: float
+) -> list[tuple[Section, bool]]:
     """What runs between the ends of the open edge of the rows `edge`, and whether it runs beside it."""
+    low, past = bounds
     corner = np.concatenate([toolpath.start_um[low:past], toolpath.end_um[past - 1 : past]])
     is_near = np.zeros(past - low, dtype=np.bool_)
     is_near[_row_by_row(toolpath, edge, np.arange(low, past))[0] - low] = True
+    # What runs beside the edge for a little, out and back at one end of it, goes on over a tab that it cuts.
+    least_um = 0.5 * float(toolpath.length_um[edge].sum())
     found: list[tuple[Section, bool]] = []
-    for (here, _, leave), (there, arrive, _) in pairwise(_visits(toolpath, corner, edge)):
+    for (here, _, leave), (there, arrive, _) in pairwise(_visits(toolpath, corner, edge, within_um)):
         length = toolpath.length_um[low + leave : low + arrive]
         share = float(length[is_near[leave:arrive]].sum() / max(float(length.sum()), 1.0))
-        is_beside = share >= _LEAST_SHARE
+        is_beside = share >= _LEAST_SHARE and float(length.sum()) >= least_um
         if (is_beside or here != there) and not _by_hole(corner, leave, arrive):
             found.append((Section(low + leave, low + arrive - 1, False), is_beside))
     return found
 
 
-def _visits(toolpath: Toolpath, corner: Floats, edge: Ints) -> list[tuple[int, int, int]]:
+def _visits(toolpath: Toolpath, corner: Floats, edge: Ints, within_um: float) -> list[tuple[int, int, int]]:
     """Visits of the corners (m, 2) to the ends of the edge: which end, the corners of arriving there and leaving it."""
     ends = np.stack([toolpath.start_um[edge[0]], toolpath.end_um[edge[-1]]])
     ways = headings(toolpath, edge[[0, -1]], np.array([0.0, 1.0]))
     off = corner[:, None, :] - ends
     away = np.hypot(off[:, :, 0], off[:, :, 1])
     apart = float(np.hypot(*(ends[1] - ends[0])))
-    end = np.where(away.min(axis=1) <= min(AT_END_UM, 0.5 * apart), away.argmin(axis=1), -1)
+    end = np.where(away.min(axis=1) <= min(within_um, 0.5 * apart), away.argmin(axis=1), -1)
     along = np.abs((off * ways).sum(axis=2))
     first = np.flatnonzero(np.diff(end, prepend=-1) != 0)
     found = []

@@ -111,11 +111,16 @@ def _closed_later(toolpath: Toolpath, begin: int, at: int, stops: Sequence[int])
     """
     stop = bisect_left(stops, at) + 1
     last = min(stop + _MOST_TABS, len(stops) - 2)
-    while stop < last and stops[stop + 1] - stops[stop] <= _MOST_JUMPS:
+    while stop < last and _are_lines(toolpath, stops[stop], stops[stop + 1]):
         stop += 1
     end = stops[min(stop + 1, len(stops) - 1)]
     place = toolpath.end_um[end - 1]
     return any(corners_at(toolpath, first, at, place).size > 0 for first in late_first(begin, at))
+
+
+def _are_lines(toolpath: Toolpath, at: int, until: int) -> bool:
+    """Whether the rows from `at` up to but without `until` may be lines to a tab: a hole may be of as many blocks."""
+    return until - at <= _MOST_JUMPS and not (toolpath.kind[at:until] == CurveKind.ARC).any()
 
 
 def is_open_way(toolpath: Toolpath, at: int, until: int, after: int) -> bool:

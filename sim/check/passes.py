@@ -15,7 +15,7 @@ import numpy as np
 from parser.dialect.reader import at_block
 from parser.findings.findings import Finding, OddShape
 from parser.geometry.along import directions
-from parser.geometry.curves import Ints
+from parser.geometry.curves import Floats, Ints
 from parser.geometry.distance import distance_to_curves
 from parser.program import Program
 from parser.shape.parallel_runs import BESIDE_UM
@@ -103,14 +103,30 @@ def _deeper(program: Program, passes: Passes, judged: list[list[Pass]]) -> Itera
     """Of each earlier pass the block that comes nearer to the part than the last one, where that is not all of it."""
     shift_um = row_shifts_um(program.toolpath, passes)
     for each in (each for several in judged for each in several):
-        of_pass = shift_um[each.first : each.last + 1]
+        rows = slice(each.first, each.last + 1)
+        of_pass = _led_to(shift_um[rows], program.toolpath.length_um[rows])
         if each.shift_um < -_SAME_UM or np.isnan(of_pass).all():
             continue
         row = each.first + int(np.nanargmin(of_pass))
-        if shift_um[row] < -_DEEPER_UM:
-            by = float(-shift_um[row])
+        by = float(-np.nanmin(of_pass))
+        if by > _DEEPER_UM:
             found = at_block(program.toolpath, program.lines, "3B314", row, number=each.number, by=by)
             yield found.with_fact(OddShape())
+
+
+def _led_to(shift_um: Floats, length_um: Floats) -> Floats:
+    """Shifts (n,) of the rows of a pass, those left out, as NaN, that lie deeper than they are long between two others.
+
+    A path comes no deeper than it is long, so that such a row has the wrong one of the last pass beside it: a piece of
+    some µm at a corner is nearly as much beside the one as beside the other.
+    """
+    known = np.flatnonzero(~np.isnan(shift_um))
+    shift = shift_um[known]
+    neighbour_um = np.minimum(np.append(np.inf, shift[:-1]), np.append(shift[1:], np.inf))
+    is_odd = (-shift > length_um[known]) & (neighbour_um >= -_DEEPER_UM) & np.isfinite(neighbour_um)
+    led = shift_um.copy()
+    led[known[is_odd]] = np.nan
+    return led
 
 
 def _uncut_tab(program: Program, main: list[Pass]) -> Iterator[Finding]:

@@ -14,7 +14,7 @@ from parser.geometry.along import Directions, directions, headings_at
 from parser.geometry.curves import Floats, Ints
 from parser.geometry.near import distinct
 from parser.program import Program
-from parser.shape.loops import find_loops
+from parser.shape.loops import are_there_and_back, find_loops
 from parser.shape.passes import Passes
 from parser.toolpath import Toolpath
 from sim.check.geometry import ROUNDING_UM, tight_corners
@@ -44,7 +44,8 @@ def radius_rule_findings(program: Program, contour: Ints, offset_um: float | Non
         return
     loops = find_loops(program.toolpath, contour, numbers)
     ways = directions(program.toolpath)
-    for first, last in zip(loops.first.tolist(), loops.last.tolist(), strict=True):
+    wide = ~are_there_and_back(program.toolpath, loops.first, loops.last)
+    for first, last in zip(loops.first[wide].tolist(), loops.last[wide].tolist(), strict=True):
         rows = np.arange(first, last + 1)
         rows = rows[program.toolpath.length_um[rows] > 0.0]
         if (words.radius_um[rows] >= 0).all():

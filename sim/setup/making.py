@@ -109,6 +109,10 @@ class Making(NamedTuple):
         How far the last pass runs on behind its start.
     tab_um
         How much of each part's outline is left for a last cut behind a stop; 0 for none.
+    slug_tab_um
+        How much of each hole's contour is left, so that its slug stays until a round of cuts at the end; 0 for none.
+    rough_first
+        Whether the first passes of all figures come before the others, behind a stop; else figure after figure.
     corners
         How the wire goes round outside corners.
     no_core
@@ -140,11 +144,18 @@ class Making(NamedTuple):
     lead_um: float | None = None
     overcut_um: float = 0.0
     tab_um: float = 0.0
+    slug_tab_um: float = 0.0
+    rough_first: bool = False
     corners: Corners = "sharp"
     no_core: bool = False
     common_edges: bool = False
     lag_um: float = 0.0
     layers: tuple[LayerWish, ...] = ()
+
+    @property
+    def in_rounds(self) -> bool:
+        """Whether the wire comes to figures again, in rounds over all of them."""
+        return self.rough_first or self.slug_tab_um > 0.0
 
     @property
     def held_to_um(self) -> float:
@@ -236,6 +247,8 @@ PROGRAM = Section(
         Key("lead_mm", Number(LEAD_MM, "mm", MM_AS_UM), "making.lead_um", default=None, option="--lead-length"),
         Key("overcut_mm", Number(OVERCUT_MM, "mm", MM_AS_UM), "making.overcut_um", default=0.0, option="--overcut"),
         Key("tab_mm", Number(OVERCUT_MM, "mm", MM_AS_UM), "making.tab_um", default=0.0, option="--tab"),
+        Key("slug_tab_mm", Number(OVERCUT_MM, "mm", MM_AS_UM), "making.slug_tab_um", default=0.0, option="--slug-tab"),
+        Key("rough_first", Truth(), "making.rough_first", default=False, option="--rough-first"),
         Key(
             "corners",
             OneOf(CORNERS),
@@ -313,6 +326,7 @@ def refuse_odd(making: Making, where: str | Message) -> None:
     number(making.gap_um, GAP_UM, _named(where, "name-gap"))
     number(mm(making.overcut_um), OVERCUT_MM, _named(where, "name-overcut"))
     number(mm(making.tab_um), OVERCUT_MM, _named(where, "name-tab"))
+    number(mm(making.slug_tab_um), OVERCUT_MM, _named(where, "name-slug-tab"))
     number(making.lag_um, WIRE_LAG_UM, _named(where, "name-lag"))
     if making.lead_um is not None:
         number(mm(making.lead_um), LEAD_MM, _named(where, "name-lead"))

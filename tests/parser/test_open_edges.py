@@ -74,4 +74,4 @@ def test_a_way_from_end_to_end_is_the_tab_unless_it_comes_by_the_hole(off_um: fl
 def test_a_contour_that_comes_nowhere_near_an_edge_has_no_pass_over_it() -> None:
     figure = "B1000B0B1000GXL1\nB0B1000B1000GYL2\nB1000B0B1000GXL3\nB0B1000B1000GYL4\n"
     toolpath = parse_program(f"{figure}D\nB90000B0B90000GXL1\nD\n{figure}DD\n").toolpath
-    assert sections_elsewhere(toolpath, (5, 9), np.arange(1)) == []
+    assert sections_elsewhere(toolpath, (5, 9), np.arange(1), 450.0) == []

@@ -8,6 +8,7 @@ from pass_styles import STYLES, Style, written
 from paths import Pen
 from rough_and_trim import RoughAndTrim, rough_and_trim
 from sound import sound_program
+from tab_elsewhere import TAB_ELSEWHERE
 
 from parser.program import load_program
 from parser.shape.passes import Pass, find_passes, row_shifts_um
@@ -137,3 +138,14 @@ def test_offsets_count_from_the_edge_that_the_pass_nearest_to_the_part_leaves() 
     for radius in (220.0, 280.0):
         pen.to(radius, 0).arc(0, 0, 2 * np.pi).to(4000, 0)
     assert [one.offset_um(100.0) for one in find_passes(pen.path()).passes] == pytest.approx([100.0, 160.0])
+
+
+def test_a_tab_that_a_single_pass_leaves_is_cut_in_another_contour_and_a_trim_may_follow() -> None:
+    told = [(one.edge, one.number, one.first, one.last, one.is_back, one.is_tab) for one in passes_of(TAB_ELSEWHERE)]
+    assert told == [
+        (0, 1, 1, 1, False, False),
+        (1, 1, 4, 8, False, False),
+        (0, 2, 12, 12, True, True),
+        (0, 3, 13, 13, False, True),
+        (0, 4, 16, 16, True, False),
+    ]

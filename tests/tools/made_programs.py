@@ -1,6 +1,6 @@
 """Programs made of drawings for tests: a plate with a round and a square hole, its plan, and proofs of what is made."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -17,6 +17,7 @@ from sim.make.cam.model import CutPlan, FigureCut
 from sim.make.cam.planned import PlanRequest, planned
 from sim.make.cam.proof import ToProve, proved
 from sim.make.cam.target import Proof
+from sim.make.cam.visits import visited
 from sim.make.convert import proof as held_against
 from sim.make.wanted import Wanted, read_with, written
 from sim.setup.making import Making
@@ -40,6 +41,11 @@ def plate_file(folder: Path, draw: Callable[[Modelspace], object] = plate) -> Pa
 
 def plan_of(path: Path, making: Making | None = None, scenario: Scenario | None = None) -> CutPlan:
     return planned(PlanRequest(path, making or Making(), scenario or plain_scenario()))
+
+
+def with_cuts(plan: CutPlan, cuts: Sequence[FigureCut]) -> CutPlan:
+    """The plan with other cuts, one behind the other."""
+    return plan._replace(**visited(cuts, plan.making)._asdict())
 
 
 def proof_of(

@@ -1,6 +1,6 @@
 """A plan to a draft whose offsets the controller adds: the contours of the drawing; ISO says so by G41 and G42.
 
-A plan to a draft: figure after figure, with a jump and a pause between, and a pause before a tab.
+A plan to a draft: visit after visit, with a jump and a pause between figures, and a pause before a tab.
 """
 
 from collections.abc import Iterator, Sequence
@@ -15,31 +15,31 @@ from parser.geometry.curves import Curves, joined, jump_between
 from parser.toolpath import Point, Stop
 from parser.write.draft import Draft
 from sim.make.cam.guides import guided
-from sim.make.cam.model import CannotCutError, CutPlan, FigureCut, PassCut, Refusal
+from sim.make.cam.model import CannotCutError, CutPlan, FigureCut, PassCut, Refusal, Visit
 
 
 def draft_of_plan(plan: CutPlan) -> Draft:
     """The draft of a plan, its offsets worked into the path, and the lag of the wire where one is asked for."""
     lag_um = plan.making.lag_um
-    return draft_of_cuts([guided(cut, lag_um) for cut in plan.cuts] if lag_um else plan.cuts)
+    return draft_of_cuts(plan.visits, [guided(cut, lag_um) for cut in plan.cuts] if lag_um else plan.cuts)
 
 
-def draft_of_cuts(cuts: Sequence[FigureCut]) -> Draft:
-    """The draft of figures that are cut one behind the other."""
+def draft_of_cuts(visits: Sequence[Visit], cuts: Sequence[FigureCut]) -> Draft:
+    """The draft of visits of figures, one behind the other, with a jump where the wire is threaded anew."""
     parts: list[Curves] = []
     stops: list[Stop] = []
     rows = 0
-    for at, cut in enumerate(cuts):
-        if at:
-            jump = jump_between(cuts[at - 1].ends_at_um, np.array(cut.thread.place_um))
+    for at, visit in enumerate(visits):
+        cut = cuts[visit.cut]
+        if visit.has_stop:
             stops.append(Stop("pause", rows, 0))
+        if at and visit.is_threaded:
+            jump = jump_between(parts[-1].end_um[-1], np.array(cut.thread.place_um))
             parts.append(jump)
             rows += len(jump)
-        for pass_ in (*cut.passes, *cut.cut_off):
-            if cut.cut_off and pass_ is cut.cut_off[0]:
-                stops.append(Stop("pause", rows, 0))
-            parts += [pass_.into, pass_.along, pass_.out]
-            rows += len(pass_.into) + len(pass_.along) + len(pass_.out)
+        ways = [way for pass_ in visit.passes_of(cut) for way in (pass_.into, pass_.along, pass_.out) if len(way)]
+        parts += ways
+        rows += sum(map(len, ways))
     stops.append(Stop("end", rows, 0))
     nowhere = np.full((rows, 2), np.nan)
     return Draft(joined(parts), tuple(stops), np.zeros(rows, dtype=np.bool_), nowhere, is_meant=True)
@@ -65,7 +65,7 @@ def kept_draft(plan: CutPlan, on_contour: Sequence[FigureCut], rules: Compensati
     where that cannot be.
     """
     _refuse_misfits(plan, on_contour)
-    draft = draft_of_cuts(on_contour)
+    draft = draft_of_cuts(plan.visits, on_contour)
     sided = list(_sided(plan, on_contour))
     rows = [each.rows for each in sided]
     compensation = Compensation(
@@ -89,7 +89,7 @@ def added_draft(plan: CutPlan, on_contour: Sequence[FigureCut]) -> Draft:
     for cut in on_contour:
         for pass_ in cut.passes:
             _refuse_corners(cut, pass_.along)
-    return draft_of_cuts(on_contour)
+    return draft_of_cuts(plan.visits, on_contour)
 
 
 def _refuse_corners(cut: FigureCut, along: Curves) -> None:
@@ -106,10 +106,11 @@ def _refuse_corners(cut: FigureCut, along: Curves) -> None:
 def _sided(plan: CutPlan, on_contour: Sequence[FigureCut]) -> Iterator[_Sided]:
     """The rows of the draft in order: jumps, ways in and along, ways out."""
     registers: dict[float, str] = {}
-    for at, (cut, bare) in enumerate(zip(plan.cuts, on_contour, strict=True)):
-        if at:
+    for at, visit in enumerate(plan.visits):
+        cut = plan.cuts[visit.cut]
+        if at and visit.is_threaded:
             yield _Sided(1, 0, 0.0, "")
-        for pass_, way in zip(cut.passes, bare.passes, strict=True):
+        for pass_, way in zip(visit.passes_of(cut), visit.passes_of(on_contour[visit.cut]), strict=True):
             side = -int(cut.side) if pass_.is_back else int(cut.side)
             register = registers.setdefault(pass_.by_um, f"D{len(registers) + 1}")
             yield _Sided(len(way.into) + len(way.along), side, pass_.by_um, register)
@@ -121,7 +122,7 @@ def _refuse_misfits(plan: CutPlan, on_contour: Sequence[FigureCut]) -> None:
 
     Ways back over a tab would need the other side. The turns that take a slug away lie at offsets of their own.
     """
-    if plan.making.tab_um or plan.making.overcut_um:
+    if plan.making.tab_um or plan.making.slug_tab_um or plan.making.overcut_um:
         raise CannotCutError(Refusal("kept-tab"))
     if any(cut.is_coreless for cut in plan.cuts):
         raise CannotCutError(Refusal("kept-no-core"))

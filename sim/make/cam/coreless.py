@@ -18,7 +18,7 @@ from parser.geometry.curves import Curves, Floats, curves_between, joined
 from sim.make.cam.leads import line
 from sim.make.cam.model import CannotCutError, CutPlan, FigureCut, PassCut, Refusal
 from sim.make.cam.offset_path import SHORT_UM
-from sim.make.cam.passes import around, parted, run_back
+from sim.make.cam.passes import around, figure_cut, parted, run_back
 from sim.measure.compare.rings import polygon
 from sim.setup.making import Making
 
@@ -66,13 +66,24 @@ def _without_core(cut: FigureCut, places: shapely.STRtree, making: Making) -> Fi
     room_um = float(shapely.length(shapely.maximum_inscribed_circle(hole, tolerance=1.0)))
     if 2.0 * room_um > WIDEST_UM + 1.0:
         return cut
+    whole = _without_tab(cut, making)
     for share in _STEPS:
         step_um = share * reach_um
-        way = _round_spiral(cut, step_um) if len(cut.figure.contour) == 1 else _spiral(cut, step_um, room_um, making)
-        if _is_plain(cut, way) and _is_all_taken(hole, way, cut.passes[0], reach_um):
-            first = cut.passes[0]._replace(into=way)
-            return cut._replace(passes=(first, *cut.passes[1:]), is_coreless=True)
+        way = (
+            _round_spiral(whole, step_um) if len(cut.figure.contour) == 1 else _spiral(whole, step_um, room_um, making)
+        )
+        if _is_plain(whole, way) and _is_all_taken(hole, way, whole.passes[0], reach_um):
+            first = whole.passes[0]._replace(into=way)
+            return whole._replace(passes=(first, *whole.passes[1:]), is_coreless=True)
     return cut
+
+
+def _without_tab(cut: FigureCut, making: Making) -> FigureCut:
+    """The cut of a hole all round: there is no slug that could hang by a tab."""
+    if not cut.cut_off:
+        return cut
+    passes_um = tuple(each.by_um for each in cut.passes)
+    return figure_cut(cut.figure, cut.thread, passes_um, making._replace(slug_tab_um=0.0, layers=()))
 
 
 def _round_spiral(cut: FigureCut, step_um: float) -> Curves:

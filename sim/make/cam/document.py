@@ -14,7 +14,6 @@ from parser import __version__
 from parser.drawing.model import Entity, FitFigures, LeftOut
 from parser.findings.catalogue import Language, Remark, remark_text, texts
 from parser.findings.findings import Finding
-from parser.shape.contours import runs
 from parser.toolpath import Toolpath
 from parser.units import mm
 from sim.base.units import known, place, rounded
@@ -39,6 +38,7 @@ from sim.make.cam.document_model import (
 from sim.make.cam.maker import MadeProgram, NotMade
 from sim.make.cam.model import CutPlan, Figure, FigureCut, PassCut, Refusal
 from sim.make.cam.target import Fault, Proof
+from sim.make.cam.visits import Spans, figure_rows
 from sim.run.dryrun import DryRun
 from sim.setup.wire import Wire
 
@@ -48,15 +48,16 @@ class FigureSum(NamedTuple):
 
     Attributes
     ----------
-    first_block, blocks, length_um
-        Of the program as written; 0 where it has not as many contours as there are figures.
+    spans, blocks, length_um
+        Of the program as written, of each of its contours the first and the last block; how many, and how long. None
+        and 0 where it has not as many contours as the plan.
     time_s
         What it takes on the machine of the proof; None where nothing ran.
     pass_s
         Of each pass, the cut-off behind them, without leads; empty where nothing ran, or the run has other passes.
     """
 
-    first_block: int = 0
+    spans: tuple[tuple[int, int], ...] = ()
     blocks: int = 0
     length_um: float = 0.0
     time_s: float | None = None
@@ -65,33 +66,31 @@ class FigureSum(NamedTuple):
 
 def figure_sums(made: MadeProgram) -> tuple[FigureSum, ...]:
     """One for each cut of the plan, in running order: jumps part them, in the text and in what ran."""
-    toolpath, run = made.program.toolpath, made.proof and made.proof.run
-    number = len(made.plan.cuts)
-    written, ran = _rows(toolpath, number), _rows(run.toolpath, number) if run is not None else []
-    sums = [_written(toolpath, *rows) for rows in written] or [FigureSum()] * number
+    plan, toolpath, run = made.plan, made.program.toolpath, made.proof and made.proof.run
+    written, ran = figure_rows(toolpath, plan), figure_rows(run.toolpath, plan) if run is not None else []
+    sums = [_written(toolpath, rows) for rows in written] or [FigureSum()] * len(plan.cuts)
     if run is None or not ran:
         return tuple(sums)
-    passes = [len(cut.passes) + len(cut.cut_off) for cut in made.plan.cuts]
-    return tuple(_timed(sum_, run, rows, many) for sum_, rows, many in zip(sums, ran, passes, strict=True))
+    return tuple(_timed(sum_, run, rows, cut) for sum_, rows, cut in zip(sums, ran, plan.cuts, strict=True))
 
 
-def _rows(toolpath: Toolpath, number: int) -> list[list[int]]:
-    """The first row of each figure and one past its last; none where the path has not as many contours."""
-    found: list[list[int]] = runs(toolpath).tolist()
-    return found if len(found) == number else []
+def _written(toolpath: Toolpath, rows: Spans) -> FigureSum:
+    block = toolpath.source.block
+    return FigureSum(
+        tuple((int(block[first]), int(block[first]) + past - first - 1) for first, past in rows),
+        sum(past - first for first, past in rows),
+        float(sum(np.sum(toolpath.length_um[first:past]) for first, past in rows)),
+    )
 
 
-def _written(toolpath: Toolpath, first: int, past: int) -> FigureSum:
-    return FigureSum(int(toolpath.source.block[first]), past - first, float(np.sum(toolpath.length_um[first:past])))
-
-
-def _timed(figure_sum: FigureSum, run: DryRun, rows: list[int], passes: int) -> FigureSum:
-    first, past = rows
+def _timed(figure_sum: FigureSum, run: DryRun, rows: Spans, cut: FigureCut) -> FigureSum:
     time_s = run.block_time_s
-    found = [each for each in run.passes.passes if first <= each.first < past]
+    found = [each for each in run.passes.passes if any(first <= each.first < past for first, past in rows)]
+    if any(each.is_tab for each in found):
+        found.sort(key=lambda each: each.is_tab)  # as the plan has them: what is cut off stands last
     pass_s = [float(np.sum(time_s[each.first : each.last + 1])) for each in found]
-    times = tuple(pass_s) if len(pass_s) == passes else ()
-    return figure_sum._replace(time_s=float(np.sum(time_s[first:past])), pass_s=times)
+    times = tuple(pass_s) if len(pass_s) == len(cut.all_passes) else ()
+    return figure_sum._replace(time_s=float(sum(np.sum(time_s[first:past]) for first, past in rows)), pass_s=times)
 
 
 class Say(Protocol):
@@ -150,14 +149,15 @@ def _fit(fit: FitFigures, asked_um: float) -> FitEntry:
 def _figure(cut: FigureCut, of: FigureSum) -> FigureEntry:
     """A figure: blocks and length are those of the text, times those of the run."""
     figure, thread = cut.figure, cut.thread
-    passes = (*cut.passes, *cut.cut_off)
+    passes = cut.all_passes
     times = of.pass_s or [None] * len(passes)
     return {
         "number": figure.number,
         "kind": figure.kind,
         "part": figure.part,
         "layer": figure.layer,
-        "blocks": [of.first_block, of.first_block + of.blocks - 1] if of.blocks else None,
+        "blocks": list(of.spans[0]) if len(of.spans) == 1 else None,
+        "spans": [list(span) for span in of.spans],
         "length_um": rounded(of.length_um),
         "time_s": known(of.time_s),
         "thread_um": place(thread.place_um),

@@ -60,6 +60,7 @@ class FigureEntry(TypedDict):
     part: Ordinal
     layer: str
     blocks: BlockRange | None
+    spans: list[BlockRange]
     length_um: Size
     time_s: Size | None
     thread_um: Point

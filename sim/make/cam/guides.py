@@ -9,7 +9,7 @@ they run past it by the lag, straight to the lag behind it on the new way, and o
 
 import math
 from dataclasses import replace
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 
@@ -44,30 +44,50 @@ _SAME_RAD: Final = 1e-6
 _CORNER_RAD: Final = 0.02  # less is no corner, but a joint that was to be smooth
 
 
+class _Led(NamedTuple):
+    """A pass as the wire is to run it, and as the guides do."""
+
+    wire: PassCut
+    guides: PassCut
+
+
 def guided(cut: FigureCut, lag_um: float) -> FigureCut:
     """A cut whose passes are the ways of the guides, where those of the cut are the ways of a wire with a lag, µm.
 
     On lead-ins and lead-outs, in the waste, the guides run where the wire would: it cuts the corner to the pass off, on
     the side of the waste. Where a pass runs all round the guides end where the wire would, too. What the wire leaves
     there is cut by the last pass, which is to run on over its start by `OVERLAP_LAGS`. Up to a tab and over it they run
-    past the end, so that the wire comes to it, and back.
+    past the end, so that the wire comes to it; what goes on from there begins where they are.
     """
-    is_past = bool(cut.cut_off)
-    return cut._replace(
-        passes=tuple(_guided(each, lag_um, is_past=is_past) for each in cut.passes),
-        cut_off=tuple(_guided(each, lag_um, is_past=is_past) for each in cut.cut_off),
-    )
+    open_passes = 0 if not cut.cut_off else 1 if cut.figure.runs_inside else len(cut.passes)
+    before: _Led | None = None
+    led = list[PassCut]()
+    for at, way in enumerate(cut.passes):
+        made = _guided(way, lag_um, before, is_past=at < open_passes)
+        led.append(made)
+        if at < open_passes:
+            before = _Led(way, made)
+    cut_off = tuple(_guided(each, lag_um, before, is_past=not _returns(each)) for each in cut.cut_off)
+    return cut._replace(passes=tuple(led), cut_off=cut_off)
 
 
-def _guided(way: PassCut, lag_um: float, *, is_past: bool) -> PassCut:
-    """The ways of the guides of a pass, from where it begins to where it ends, or past that and back."""
-    ahead = _ahead(way.along, lag_um, is_past=is_past)
-    begin, end = ahead.start_um[0], ahead.end_um[-1]
+def _returns(way: PassCut) -> bool:
+    """Whether a pass ends where it begins."""
+    return bool(np.hypot(*(way.along.end_um[-1] - way.along.start_um[0])) <= _SAME_UM)
+
+
+def _guided(way: PassCut, lag_um: float, before: _Led | None, *, is_past: bool) -> PassCut:
+    """The ways of the guides of a pass, from where it begins to where it ends, or past that."""
     first, last = joined([way.into, way.along]).start_um[0], joined([way.along, way.out]).end_um[-1]
+    goes_on = before is not None and bool(np.hypot(*(first - before.wire.along.end_um[-1])) <= _SAME_UM)
+    if before is not None and goes_on:
+        first = before.guides.along.end_um[-1]
+    ahead = _ahead(way.along, lag_um, is_led=goes_on and not len(way.into), is_past=is_past)
+    begin, end = ahead.start_um[0], ahead.end_um[-1]
     return way._replace(
         into=_lead(way.into, first, begin),
         along=_chain(begin, ahead, end),
-        out=_lead(_back(way, lag_um), end, last),
+        out=_lead(_back(way, lag_um), end, last) if len(way.out) or not is_past else way.out,
     )
 
 
@@ -93,13 +113,15 @@ def _lead(way: Curves, start: Floats, end: Floats) -> Curves:
     return _chain(start, curves_between(starts, ends, way.center_um, way.sweep_rad), end)
 
 
-def _ahead(way: Curves, lag_um: float, *, is_past: bool) -> Curves:
+def _ahead(way: Curves, lag_um: float, *, is_led: bool, is_past: bool) -> Curves:
     """Each curve as the guides run it, ahead of a wire on it; to the end of the last one, or past it.
+
+    Where they are led the guides are ahead of the first one's start already.
 
     Two curves of one line or circle keep the joint between them: so a way round and on ends as it began.
     """
     heading, goes_on = directions(way), _goes_on(way)
-    is_led_from, is_led_to = np.append(False, ~goes_on), np.append(~goes_on, is_past)
+    is_led_from, is_led_to = np.append(is_led, ~goes_on), np.append(~goes_on, is_past)
     share = np.where(_turn(heading) > _CORNER_RAD, CORNER_SHARE, ARC_SHARE)
     from_um = lag_um * np.append(CORNER_SHARE, share) * is_led_from
     to_um = lag_um * np.append(share, CORNER_SHARE) * is_led_to

@@ -238,7 +238,7 @@ def _fitted(request: PlanRequest, wanted: Wanted, fit_um: float) -> MadeProgram:
     made = MadeProgram(encoded(text.text, wanted), program, plan, draft, off)
     if not plan.making.lag_um:
         return made
-    _, unled = _read_back(begun(draft_of_cuts(plan.cuts), wanted), request.path.stem, wanted)
+    _, unled = _read_back(begun(draft_of_cuts(plan.visits, plan.cuts), wanted), request.path.stem, wanted)
     return made._replace(unled=unled)
 
 

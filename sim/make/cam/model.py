@@ -262,11 +262,36 @@ class FigureCut(NamedTuple):
     is_coreless: bool = False
 
     @property
-    def ends_at_um(self) -> Floats:
-        """Where (2,) the wire is at its end."""
-        last = (*self.passes, *self.cut_off)[-1]
-        place: Floats = (last.out if len(last.out) else last.along).end_um[-1]
-        return place
+    def all_passes(self) -> tuple[PassCut, ...]:
+        """The passes, and those over the tab."""
+        return (*self.passes, *self.cut_off)
+
+
+class Visit(NamedTuple):
+    """Passes over a figure in one go.
+
+    Attributes
+    ----------
+    cut
+        Index of the figure's cut in the plan.
+    first, past
+        Of all passes of that cut, the first one and one past the last.
+    is_threaded
+        Whether the wire is threaded before it, at the figure's thread point; else it goes on from where the visit
+        before it ended.
+    has_stop
+        Whether it begins behind a stop.
+    """
+
+    cut: int
+    first: int
+    past: int
+    is_threaded: bool
+    has_stop: bool
+
+    def passes_of(self, cut: FigureCut) -> tuple[PassCut, ...]:
+        """Its passes, of its cut."""
+        return cut.all_passes[self.first : self.past]
 
 
 UNCUT: Final = (
@@ -292,6 +317,7 @@ UNCUT: Final = (
 class CutPlan(NamedTuple):
     """All that is cut, in running order, with what it was made of.
 
+    `cuts` stand in the order in which the wire comes to them first, `visits` in the order in which it runs them.
     `is_added`: the controller adds the offset, and the program, in 4B, does not say it.
     """
 
@@ -302,7 +328,13 @@ class CutPlan(NamedTuple):
     uncut: tuple[Uncut, ...]
     left_out: tuple[LeftOut, ...]
     notes: tuple[Remark, ...]
+    visits: tuple[Visit, ...] = ()
     is_added: bool = False
+
+    @property
+    def of_contour(self) -> tuple[int, ...]:
+        """The index of the cut that each contour of the program is of: a thread point begins each."""
+        return tuple(visit.cut for visit in self.visits if visit.is_threaded)
 
     @property
     def uncut_entities(self) -> tuple[LeftOut, ...]:

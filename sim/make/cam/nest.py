@@ -154,7 +154,12 @@ def refuse_misfits(making: Making, by_um: float) -> None:
     if not making.common_edges:
         return
     several = len(making.passes_um) > 1 or any(wish.passes_um for wish in making.layers)
-    wishes = {"--pass": several or by_um <= 0.0, "--tab": making.tab_um > 0.0, "--lag": making.lag_um > 0.0}
+    wishes = {
+        "--pass": several or by_um <= 0.0,
+        "--tab": making.tab_um > 0.0,
+        "--slug-tab": making.slug_tab_um > 0.0,
+        "--lag": making.lag_um > 0.0,
+    }
     for option, is_wished in wishes.items():
         if is_wished:
             raise CannotCutError(Refusal("common-with", (), (("option", option),)))

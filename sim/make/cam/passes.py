@@ -8,6 +8,9 @@ of the open stretch to its start, or back from its start to its end. It does so 
 a part that has been cut off is loose, and what a second pass would leave of it is left to chance. So the tab, too, is
 as large as the drawing has it, and what the rough cut leaves rough there is what is left to be ground.
 
+A slug, too, may hang by a tab for a while. It is cut off at the offset of the first pass: the others come once the slug
+is out, and run all round. Where the wire comes back to a tab, it is threaded anew and comes to it from the entry.
+
 Ways all round a contour at the offset of each pass, begun where the wire comes to it.
 
 Closed ways begun elsewhere, ways parted, and ways run back.
@@ -135,7 +138,8 @@ def _begin(figure: Figure, thread: Thread, by_um: float, way: Curves) -> Point:
     return Point(*way.start_um[int(np.argmin(np.where(near, beside_um, np.inf)))].tolist())
 
 
-_MOST_SHARE = 0.5  # of the contour
+_MOST_SHARE = 0.5  # of the contour: how wide a tab may be
+_MOST_OF_SLUG = 0.2  # the same of a slug: readers take a pass that leaves more open for one that is meant so
 _STEP_UM = 1e-6
 
 
@@ -175,16 +179,46 @@ def tab_passes(rounds: Rounds, making: Making) -> tuple[tuple[PassCut, ...], tup
     """
     if making.returning == "one-way" and len(rounds.ahead) > 1:
         raise CannotCutError(Refusal("one-way-tab"))
-    place = _end_of_open(rounds, making.tab_um)
-    ways = [_Parted(*parted(ahead, length_to(ahead, place))) for ahead in rounds.ahead]
-    nothing = ways[0].open.picked(slice(0))
+    ways = _parted_at_tab(rounds, making.tab_um)
     passes: list[PassCut] = []
     for number, (by_um, way) in enumerate(zip(rounds.offsets_um, ways, strict=True)):
         is_back = number % 2 == 1
         along = run_back(way.open) if is_back else way.open
         into = _step(passes[-1].along, along) if passes else lead_in(rounds.thread, along)
-        passes.append(PassCut(by_um, is_back, into, along, nothing))
+        passes.append(PassCut(by_um, is_back, into, along, along.picked(slice(0))))
     return tuple(passes), (_cut_off(rounds, ways[-1], passes[-1], making),)
+
+
+def slug_passes(rounds: Rounds, making: Making) -> tuple[tuple[PassCut, ...], tuple[PassCut, ...]]:
+    """The first pass up to the tab that the slug hangs by, the others all round, and the cut-off behind the first one.
+
+    CannotCutError as of `tab_passes`.
+    """
+    way, by_um = _parted_at_tab(rounds, making.slug_tab_um)[0], rounds.offsets_um[0]
+    first = PassCut(by_um, False, lead_in(rounds.thread, way.open), way.open, way.open.picked(slice(0)))
+    cut_off = _cut_off(rounds, way, first, making)
+    over, _ = parted(way.open, _overcut_um(making))
+    cut_off = cut_off._replace(out=joined([run_back(over), run_back(first.into)]))
+    return (first, *_whole_passes(rounds, making)[1:]), (cut_off,)
+
+
+def cut_off_anew(cut: FigureCut, making: Making) -> PassCut:
+    """The cut-off from the thread point: back over the tab, past the end of the open stretch, and back the same way."""
+    by_um = cut.cut_off[0].by_um
+    closed = around(cut.figure, cut.thread, by_um, making)
+    ahead = closed if cut.is_ccw else run_back(closed)
+    rounds = Rounds(cut.figure, cut.thread, cut.is_ccw, (by_um,), (ahead,))
+    (way,) = _parted_at_tab(rounds, making.slug_tab_um if cut.figure.runs_inside else making.tab_um)
+    over, _ = parted(run_back(way.open), _overcut_um(making))
+    there = joined([run_back(way.tab), over])
+    into = cut.passes[0].into if cut.figure.runs_inside else lead_in(cut.thread, there)
+    return PassCut(by_um, True, into, joined([there, run_back(there)]), run_back(into))
+
+
+def _parted_at_tab(rounds: Rounds, tab_um: float) -> list[_Parted]:
+    """The ways at all offsets, parted where the tab begins. CannotCutError where there can be no such tab."""
+    place = _end_of_open(rounds, tab_um)
+    return [_Parted(*parted(ahead, length_to(ahead, place))) for ahead in rounds.ahead]
 
 
 def _cut_off(rounds: Rounds, way: _Parted, last: PassCut, making: Making) -> PassCut:
@@ -228,7 +262,8 @@ def _step(before: Curves, behind: Curves) -> Curves:
 def figure_cut(figure: Figure, thread: Thread, passes_um: tuple[float, ...], making: Making) -> FigureCut:
     """How a figure is cut; CannotCutError where the wire does not fit, or what is asked for does not go together.
 
-    A tab is left where the wire runs outside of the contour: what falls there is the part.
+    A tab is left where the wire runs outside of the contour, since what falls there is the part; one of slugs, where
+    that is asked for, within contours that are long enough for it.
     """
     way = way_of(figure, making)
     offsets = offsets_of(figure, passes_um, making)
@@ -237,7 +272,15 @@ def figure_cut(figure: Figure, thread: Thread, passes_um: tuple[float, ...], mak
     rounds = Rounds(figure, thread, way.is_ccw, offsets, ahead)
     if making.tab_um and not figure.runs_inside:
         return FigureCut(figure, thread, way.side, way.is_ccw, *tab_passes(rounds, making))
+    if has_slug_tab(figure, making):
+        return FigureCut(figure, thread, way.side, way.is_ccw, *slug_passes(rounds, making))
     return FigureCut(figure, thread, way.side, way.is_ccw, _whole_passes(rounds, making))
+
+
+def has_slug_tab(figure: Figure, making: Making) -> bool:
+    """Whether the slug of a figure hangs by a tab for a while: where that is a fifth of its contour at most."""
+    length_um = float(figure.contour.length_um.sum())
+    return figure.runs_inside and 0.0 < making.slug_tab_um <= _MOST_OF_SLUG * length_um
 
 
 def _whole_passes(rounds: Rounds, making: Making) -> tuple[PassCut, ...]:

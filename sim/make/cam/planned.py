@@ -27,6 +27,7 @@ from sim.make.cam.order import in_order
 from sim.make.cam.parts import parts_of
 from sim.make.cam.passes import figure_cut, offsets_of
 from sim.make.cam.threads import thread_notes, threads_of
+from sim.make.cam.visits import visited
 from sim.setup.making import Making
 from sim.setup.scenario import Scenario
 
@@ -66,7 +67,9 @@ def planned(request: PlanRequest, fit_um: float | None = None) -> CutPlan:
     while True:
         try:
             plan = _plan_of(drawing, parts, making, scenario, whole)
-            return coreless(plan, with_core) if making.no_core else plan
+            plan = coreless(plan, with_core) if making.no_core else plan
+            cuts, visits = visited(plan.cuts, making)
+            return plan._replace(cuts=cuts, visits=visits)
         except CannotCutError as error:
             rest = parts.without(error.refusals)
             if len(rest.figures) in {0, len(parts.figures)}:

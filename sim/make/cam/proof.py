@@ -25,6 +25,7 @@ from sim.base.progress import Progress, silent
 from sim.cut.pieces.pieces import Piece, Pieces
 from sim.make.cam.model import CutPlan, FigureCut, NotProved, with_sides
 from sim.make.cam.target import AsRun, Faces, Fault, Proof, Target, as_run, target_of
+from sim.make.cam.visits import figure_rows
 from sim.make.convert import Proof as Written
 from sim.measure.compare.compare import compare_program
 from sim.measure.compare.findings import by_block, by_entity, compare_cut, drawing_findings
@@ -44,10 +45,10 @@ def side_faults(plan: CutPlan, target: Target, toolpath: Toolpath) -> Iterator[F
 
     More than half of the path to a figure and round it lies within the contour of the drawing, or outside of it.
     """
-    wanted, of_run = _within(plan, target), runs(toolpath)
+    wanted, of_figure = _within(plan, target), figure_rows(toolpath, plan)
     for loop, at in enumerate(target.cut.tolist()):
-        first, past = of_run[at].tolist()
-        rows = toolpath.picked(np.arange(first, past))
+        first = of_figure[at][0][0]
+        rows = toolpath.picked(np.concatenate([np.arange(*span) for span in of_figure[at]]))
         middle = shapely.points(places(rows, np.arange(len(rows)), np.full(len(rows), 0.5)))
         inside = shapely.contains(target.shapes[loop], middle)
         if (2.0 * float(rows.length_um[inside].sum()) > float(rows.length_um.sum())) != bool(wanted[loop]):
@@ -68,7 +69,7 @@ def fall_faults(plan: CutPlan, target: Target, pieces: Pieces, reach_um: float) 
     fallen: dict[int, list[Piece]] = {}
     for piece in pieces.freed:
         if not piece.is_scrap:
-            fallen.setdefault(piece.freed.contour - 1, []).append(piece)
+            fallen.setdefault(plan.of_contour[piece.freed.contour - 1], []).append(piece)
     wanted = _within(plan, target)
     for loop, at in enumerate(target.cut.tolist()):
         cut, found = plan.cuts[at], fallen.pop(at, [])
@@ -87,8 +88,7 @@ def fall_faults(plan: CutPlan, target: Target, pieces: Pieces, reach_um: float) 
         elif len(found) > max(_pieces_of(left, cut, reach_um), 1):
             yield Fault("pieces", {"number": len(found)}, place, cut.figure.number)
     for at, found in fallen.items():
-        number = plan.cuts[at].figure.number if at < len(plan.cuts) else 0
-        yield Fault("pieces", {"number": len(found)}, found[0].freed.wire_um, number)
+        yield Fault("pieces", {"number": len(found)}, found[0].freed.wire_um, plan.cuts[at].figure.number)
 
 
 def _pieces_of(left: shapely.Geometry, cut: FigureCut, reach_um: float) -> int:
@@ -171,7 +171,7 @@ def _at_fault(proof: Proof, run: DryRun, of_cut: tuple[Finding, ...], plan: CutP
     others = [finding for finding in proof.counting if finding not in of_cut]
     if proof.verdict != "fail" or others or not all(fault.figure for fault in proof.faults):
         return ()
-    cut_of, by_number = _cut_of_block(run.toolpath), {cut.figure.number: cut.figure for cut in plan.cuts}
+    cut_of, by_number = _cut_of_block(run.toolpath, plan), {cut.figure.number: cut.figure for cut in plan.cuts}
     what = {plan.cuts[cut_of[each.block]].figure.number: each.code for each in proof.counting}
     of_path = {fault.figure: fault.name for fault in reversed(proof.faults)}
     what |= of_path
@@ -205,8 +205,8 @@ def _of_faces(faces: Faces | None) -> tuple[Remark, ...]:
 
 
 def _by_cut(given: ToProve, run: DryRun) -> tuple[Fault, ...]:
-    """That the program has more contours than figures are cut, or fewer."""
-    found, wanted = len(runs(run.toolpath)), len(given.plan.cuts)
+    """That the program has more contours than the plan, or fewer."""
+    found, wanted = len(runs(run.toolpath)), len(given.plan.of_contour)
     return () if found == wanted else (Fault("contours", {"found": found, "wanted": wanted}),)
 
 
@@ -245,7 +245,7 @@ def _off_faults(given: ToProve, toolpath: Toolpath, found: Comparison, of_cut: B
 
     Blocks are named where they are those of the program.
     """
-    number, names_blocks = _cut_of_block(toolpath), given.wire_way is None
+    number, names_blocks = _cut_of_block(toolpath, given.plan), given.wire_way is None
     bound_um = found.request.tolerance_um
     for name, deviations in (("path", by_block(found)), ("uncut", by_entity(found))):
         here = [
@@ -266,12 +266,12 @@ def _off_faults(given: ToProve, toolpath: Toolpath, found: Comparison, of_cut: B
             yield Fault("lead", values, gouge.where_um, given.plan.cuts[at].figure.number, gouge.block * names_blocks)
 
 
-def _cut_of_block(toolpath: Toolpath) -> Ints:
+def _cut_of_block(toolpath: Toolpath, plan: CutPlan) -> Ints:
     """Index of the cut that each block is of, by its number; of a jump that of the cut behind it."""
     block = toolpath.source.block
-    cut = np.searchsorted(runs(toolpath)[:, 1], np.arange(len(toolpath)), side="right")
+    contour = np.searchsorted(runs(toolpath)[:, 1], np.arange(len(toolpath)), side="right")
     of_block = np.zeros(int(block.max(initial=0)) + 1, dtype=np.int64)
-    of_block[block] = np.minimum(cut, int(cut[~toolpath.is_jump].max(initial=0)))
+    of_block[block] = np.array(plan.of_contour)[np.minimum(contour, len(plan.of_contour) - 1)]
     return of_block
 
 

@@ -26,6 +26,7 @@ from sim.make.cam.entries import MOST, Entries, EntryRequest, across_from, corne
 from sim.make.cam.leads import TOLERANCE_UM, Room, are_free, nearest, room_of
 from sim.make.cam.model import CannotCutError, Entry, Figure, Refusal, Thread, ThreadedBy, refused
 from sim.make.cam.order import around
+from sim.make.cam.passes import has_slug_tab
 from sim.setup.making import Making
 
 ON_UM: Final = 1.0
@@ -249,12 +250,20 @@ def _straightened(figures: Sequence[Figure], threads: Sequence[Thread], making: 
     """Leads that are not round where that is asked for."""
     if making.lead in _ROUND and _is_back(making):
         return (Remark("straight-back"),)
-    straight: dict[bool, list[str]] = {True: [], False: []}
+    straight: dict[str, list[str]] = {"straight-leads": [], "straight-to-parts": [], "straight-to-tabs": []}
     for figure, thread in zip(figures, threads, strict=True):
         if thread.lead != making.lead and thread.by not in _WITHOUT_LEAD:
-            straight[making.lead in _ROUND and not figure.runs_inside].append(str(figure.number))
-    named = (("straight-leads", straight[False]), ("straight-to-parts", straight[True]))
-    return tuple(Remark(name, {"figures": ", ".join(numbers)}) for name, numbers in named if numbers)
+            straight[_why_straight(figure, making)].append(str(figure.number))
+    return tuple(Remark(name, {"figures": ", ".join(numbers)}) for name, numbers in straight.items() if numbers)
+
+
+def _why_straight(figure: Figure, making: Making) -> str:
+    """Name of the remark that says why the lead of a figure is straight."""
+    if making.lead not in _ROUND:
+        return "straight-leads"
+    if not figure.runs_inside:
+        return "straight-to-parts"
+    return "straight-to-tabs" if has_slug_tab(figure, making) else "straight-leads"
 
 
 class _Waste:
@@ -352,7 +361,8 @@ class _Waste:
 
         Round leads are for slugs alone. A pass runs into the kerf of its own lead-in before it comes to its end: a part
         would fall with a nib on its edge, while that of a hole is cut off the part that stays. Nor are they for passes
-        back and forth: the lead of a pass back would cut the slug in two.
+        back and forth: the lead of a pass back would cut the slug in two. Nor are they for slugs that hang by tabs,
+        into which they would cut.
         """
         lead = making.lead
         lead_off = {at: thread for at, thread in threads.items() if thread.by not in _WITHOUT_LEAD}
@@ -367,6 +377,7 @@ class _Waste:
             clear = nearest(self.room, np.array(list(places.values())), float(off.max())).distance_um
             # Leads of all forms are free in the circle about the thread point that touches contours at the entry alone.
             is_round = (clear >= off - TOLERANCE_UM) & (self.side[list(lead_off)] > 0.0)
+            is_round &= [not has_slug_tab(self.figures[at], making) for at in lead_off]
             for at in np.array(list(lead_off))[is_round].tolist():
                 found[at] = threads[at]._replace(lead=lead)
         return tuple(found[at] for at in range(len(self.figures)))

@@ -70,7 +70,8 @@ def target_of(request: PageRequest) -> DrawingTarget:
 
 def _making(request: PageRequest) -> Making:
     """How it is to be made. SettingsError for numbers out of their bounds."""
-    passes, tab, lag = offsets_um(request, OR_NONE_MM), request["tab_mm"], request["led_um"]
+    passes, lag = offsets_um(request, OR_NONE_MM), request["led_um"]
+    tab_um, slug_tab_um = (_length_um(request[key], name) for key, name in _TABS)
     making = Making(
         unit=target_of(request).unit,
         gap_um=target_of(request).gap_um,
@@ -78,7 +79,9 @@ def _making(request: PageRequest) -> Making:
         entries_um=tuple(_place_um(each) for each in request["entries"].split(";") if each.strip()),
         starts_um=tuple(_place_um(each) for each in request["starts"].split(";") if each.strip()),
         passes_um=passes,
-        tab_um=from_mm(number_of(tab, OVERCUT_MM, Message("name-tab"))) if tab else 0.0,
+        tab_um=tab_um,
+        slug_tab_um=slug_tab_um,
+        rough_first=request["rough_first"] == "yes",
         lag_um=number_of(lag, WIRE_LAG_UM, Message("name-lag")) if lag else 0.0,
         no_core=request["no_core"] == "yes",
         common_edges=request["common_edges"] == "yes",
@@ -88,6 +91,15 @@ def _making(request: PageRequest) -> Making:
     )
     refuse_odd(making, _PROGRAM)
     return making
+
+
+_TABS: Final = (("tab_mm", "name-tab"), ("slug_tab_mm", "name-slug-tab"))
+"""Keys of tabs, and what they are called in messages."""
+
+
+def _length_um(text: str, name: str) -> float:
+    """A length as the page says it, mm; none where it says nothing. SettingsError for one out of its bounds."""
+    return from_mm(number_of(text, OVERCUT_MM, Message(name))) if text else 0.0
 
 
 def _one_of(word: str, words: tuple[str, ...]) -> str:
@@ -115,6 +127,8 @@ _CONTROLS: Final = {
     "--drawing-unit": "open.unit",
     "--lag": "open.lag",
     "--tab": "open.tab",
+    "--slug-tab": "open.slug-tab",
+    "--rough-first": "open.rough-first",
     "--no-core": "open.no-core",
     "--common-edges": "open.common-edges",
     "--pass": "open.passes",

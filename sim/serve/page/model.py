@@ -63,7 +63,7 @@ class LookedEntry(TypedDict):
 
 
 class PlannedFigureEntry(TypedDict):
-    """A figure of a plan: its number, its first row of the path and one past its last, and how it is cut.
+    """A figure of a plan: its number, of each of its contours the first row and one past its last, and how it is cut.
 
     It is cut from `entry_um` on the drawing, with the wire towards `out`, a unit vector; `is_ccw` is its direction in
     the drawing, `is_inside` whether the wire runs inside of it. `tab_um` is where its tab begins, none where it has
@@ -71,8 +71,7 @@ class PlannedFigureEntry(TypedDict):
     """
 
     number: int
-    first: int
-    past: int
+    spans: list[list[int]]
     thread_um: Point
     entry_um: Point
     out: Point

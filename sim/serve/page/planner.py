@@ -15,13 +15,13 @@ from parser.findings.catalogue import LANGUAGES, Bilingual, remark_text
 from parser.findings.errors import DrycutError
 from parser.geometry.curves import Bools, Ints
 from parser.program import load_program, moving
-from parser.shape.contours import runs
 from parser.shape.passes import find_passes
 from parser.toolpath import Toolpath
 from parser.units import mm
 from sim.base.units import place
 from sim.make.cam.maker import MadeProgram, unproved
 from sim.make.cam.model import FigureCut
+from sim.make.cam.visits import Spans, figure_rows
 from sim.measure.compare.compare import compare_program
 from sim.measure.compare.result import FitRequest
 from sim.measure.compare.starts import IN_PLACE, Placement, placed, turning
@@ -97,14 +97,14 @@ def _laid(text: str) -> Placement:
 
 def _entry(done: MadeProgram, placement: Placement) -> PlannedEntry:
     path = done.wire_way
-    rows, cuts = runs(path).tolist(), done.plan.cuts
-    spans = list(zip(cuts, rows, strict=True)) if len(rows) == len(cuts) else []
+    cuts = done.plan.cuts
+    rows = list(zip(cuts, figure_rows(path, done.plan), strict=False))
     laid = placed(path, placement)
-    figures = [_figure(cut, span, place(laid.start_um[span[0]]), placement) for cut, span in spans]
+    figures = [_figure(cut, spans, place(laid.start_um[spans[0][0]]), placement) for cut, spans in rows]
     length = f"{mm(float(path.length_um[~path.is_jump].sum())):.3f}"
     sum_ = bilingual("open.planned", figures=numbered({"figure": len(cuts)}), length=length)
     checked = zip(*(to_check(done.plan, language) for language in LANGUAGES), strict=True)
-    row_pass, is_left = _passes_of_rows(path, spans, placement)
+    row_pass, is_left = _passes_of_rows(path, rows, placement)
     return {
         "path": exact_columns(laid),
         "is_lead": leads_shown(path),
@@ -115,14 +115,13 @@ def _entry(done: MadeProgram, placement: Placement) -> PlannedEntry:
     }
 
 
-def _figure(cut: FigureCut, span: list[int], thread_um: list[float], placement: Placement) -> PlannedFigureEntry:
+def _figure(cut: FigureCut, spans: Spans, thread_um: list[float], placement: Placement) -> PlannedFigureEntry:
     """How a figure is cut, as it lies beneath the program."""
     entry, turn = cut.thread.entry, turning(placement.turn_rad, mirror=placement.mirror).T
     tab = cut.passes[0].along.end_um[-1] if cut.cut_off else None
     return {
         "number": cut.figure.number,
-        "first": span[0],
-        "past": span[1],
+        "spans": [list(span) for span in spans],
         "thread_um": thread_um,
         "entry_um": place(np.array(entry.place_um) @ turn + placement.shift_um),
         "out": (np.array(entry.out) @ turn).tolist(),
@@ -132,9 +131,7 @@ def _figure(cut: FigureCut, span: list[int], thread_um: list[float], placement: 
     }
 
 
-def _passes_of_rows(
-    path: Toolpath, spans: list[tuple[FigureCut, list[int]]], placement: Placement
-) -> tuple[Ints, Bools]:
+def _passes_of_rows(path: Toolpath, rows: list[tuple[FigureCut, Spans]], placement: Placement) -> tuple[Ints, Bools]:
     """Which pass of its figure each row (n,) is of, from 1, else 0, and whether the waste is on its left.
 
     What is cut of a tab counts as the last pass.
@@ -142,7 +139,7 @@ def _passes_of_rows(
     passes = find_passes(path)
     number = np.array([*(each.number for each in passes.passes), 0], dtype=np.int64)[passes.of_row]
     is_left = np.array([*(each.is_back for each in passes.passes), False])[passes.of_row]
-    for cut, (first, past) in spans:
+    for cut, (first, past) in ((cut, span) for cut, spans in rows for span in spans):
         number[first:past] = np.minimum(number[first:past], len(cut.passes))
         is_left[first:past] ^= (cut.side > 0) != placement.mirror
     return number, is_left

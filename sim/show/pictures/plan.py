@@ -6,14 +6,14 @@ The picture of a plan by its name, as those who write pictures ask for it.
 """
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from itertools import pairwise
 from typing import Final, NamedTuple
 
 import numpy as np
 
 from parser.findings.catalogue import Language
-from parser.geometry.curves import Curves, Floats
+from parser.geometry.curves import Curves, Floats, joined
 from parser.toolpath import Point
 from parser.units import mm
 from sim.make.cam.model import CutPlan, FigureCut, Uncut
@@ -148,20 +148,33 @@ def _draw_ways(canvas: Canvas, page: Page, plan: CutPlan) -> None:
             for lead in (pass_.into, pass_.out):
                 _stroke(canvas, line_px(lead, page.view), Paint.ACTUAL, _LEAD_WIDTH * unit)
         _stroke(canvas, line_px(cut.figure.contour, page.view), Paint.IDEAL, style.IDEAL_WIDTH * unit)
-    for places in _jumps(plan.cuts):
+    for places in (each for each in _jumps(plan) if len(each) > 1):
         line = page.view.to_px(np.array(places))
         canvas.dashed(line, Paint.JUMP, style.JUMP_WIDTH * unit, style.DASH * unit, style.DASH_GAP * unit)
 
 
-def _jumps(cuts: Sequence[FigureCut]) -> Iterator[list[Point]]:
-    """Jumps between figures, those in one go that begin at thread points again: the wire came back to these."""
-    places = [cuts[0].thread.place_um]
-    for before, cut in pairwise(cuts):
-        end = Point(*before.ends_at_um.tolist())
-        if math.dist(end, before.thread.place_um) > _BACK_UM:
+def _jumps(plan: CutPlan) -> Iterator[list[Point]]:
+    """Ways in the air between figures, those in one go that begin at thread points again: the wire came back to these.
+
+    Each is there but once: in rounds the wire comes the same way again.
+    """
+    cuts, drawn = plan.cuts, set[frozenset[Point]]()
+    places = [cuts[plan.visits[0].cut].thread.place_um]
+    for before, visit in pairwise(plan.visits):
+        if not visit.is_threaded:
+            continue
+        last = before.passes_of(cuts[before.cut])[-1]
+        end, thread = Point(*joined([last.along, last.out]).end_um[-1].tolist()), cuts[before.cut].thread.place_um
+        begin = thread if math.dist(end, thread) <= _BACK_UM else end
+        to = cuts[visit.cut].thread.place_um
+        if places[-1] != begin or {begin, to} in drawn:
             yield places
-            places = [end]
-        places.append(cut.thread.place_um)
+            places = [begin]
+        if {begin, to} in drawn:
+            places = [to]
+        else:
+            drawn.add(frozenset((begin, to)))
+            places.append(to)
     yield places
 
 

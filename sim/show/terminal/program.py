@@ -225,9 +225,17 @@ def _same_passes(plan: CutPlan, words: Words) -> Iterator[str]:
     no_core = [cut.figure.number for cut in plan.cuts if cut.is_coreless]
     if no_core:
         yield words("program.coreless", figures=_numbers(no_core))
-    tabs = [cut.figure.number for cut in plan.cuts if cut.cut_off]
+    making = plan.making
+    tabs = [cut.figure.number for cut in plan.cuts if cut.cut_off and not cut.figure.runs_inside]
     if tabs:
-        yield words("program.tabs", figures=_numbers(tabs), length=f"{mm(plan.making.tab_um):g}")
+        yield words("program.tabs", figures=_numbers(tabs), length=f"{mm(making.tab_um):g}")
+    slugs = [cut for cut in plan.cuts if cut.figure.runs_inside and not cut.is_coreless] if making.slug_tab_um else []
+    for key, is_there in (("slug-tabs", True), ("no-slug-tabs", False)):
+        numbers = [cut.figure.number for cut in slugs if bool(cut.cut_off) is is_there]
+        if numbers:
+            yield words(f"program.{key}", figures=_numbers(numbers), length=f"{mm(making.slug_tab_um):g}")
+    if making.in_rounds:
+        yield words("program.in-rounds", contours=f"{len(plan.of_contour):,}")
 
 
 def _fit(plan: CutPlan, words: Words) -> Iterator[str]:

@@ -8,6 +8,7 @@ from pass_styles import STYLES, Style, written
 from rough_and_trim import rough_and_trim
 from sound import program_text
 from sound_cam import Move, Post
+from tab_elsewhere import TAB_ELSEWHERE
 
 from sim.check.file_check import Job, check_file
 from sim.check.settings import CheckSettings
@@ -188,3 +189,13 @@ def test_a_gap_of_more_than_a_quarter_of_the_pass_is_no_tab() -> None:
 
     assert left(8000.0) == ["3B315"]
     assert left(9000.0) == []
+
+
+def test_a_slug_that_hangs_by_a_tab_until_the_wire_comes_back_is_sound() -> None:
+    assert codes(TAB_ELSEWHERE) == []
+
+
+def test_a_contour_left_open_that_nobody_comes_back_to_is_told() -> None:
+    """The same without what comes back over the tab: the trim begins at the same hole, but runs 30 µm aside."""
+    lines = TAB_ELSEWHERE.splitlines()
+    assert "3B301" in codes("\n".join([*lines[:16], *lines[20:]]))

@@ -127,6 +127,8 @@ TYPED: dict[str, tuple[list[str], str]] = {
     "lead_mm": (["2mm"], "2.0"),
     "overcut_mm": (["500um"], "0.5"),
     "tab_mm": (["3mm"], "3.0"),
+    "slug_tab_mm": (["3mm"], "3.0"),
+    "rough_first": ([], "true"),
     "corners": (["round"], "'round'"),
     "no_core": ([], "true"),
     "common_edges": ([], "true"),

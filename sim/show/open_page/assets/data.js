@@ -174,13 +174,12 @@
  */
 
 /**
- * A figure of a plan: its number, its first row of the path and one past its last, and how it is cut. It is cut from
- * `entry_um` on the drawing, with the wire towards `out`, a unit vector; `is_ccw` is its direction in the drawing,
- * `is_inside` whether the wire runs inside of it. `tab_um` is where its tab begins, none where it has none.
+ * A figure of a plan: its number, of each of its contours the first row and one past its last, and how it is cut. It
+ * is cut from `entry_um` on the drawing, with the wire towards `out`, a unit vector; `is_ccw` is its direction in the
+ * drawing, `is_inside` whether the wire runs inside of it. `tab_um` is where its tab begins, none where it has none.
  * @typedef {object} PlannedFigure
  * @property {number} number
- * @property {number} first
- * @property {number} past
+ * @property {number[][]} spans
  * @property {Place} thread_um
  * @property {Place} entry_um
  * @property {Place} out

@@ -36,7 +36,9 @@ export function wireDrawing(around) {
   const written = element("#as", HTMLSelectElement);
   const passes = element("#passes", HTMLInputElement);
   const tab = element("#tab", HTMLInputElement);
+  const slugTab = element("#slug-tab", HTMLInputElement);
   const lag = element("#lag", HTMLInputElement);
+  const roughFirst = element("#rough-first", HTMLInputElement);
   const noCore = element("#no-core", HTMLInputElement);
   const common = element("#common-edges", HTMLInputElement);
   const picks = element("#picks", HTMLInputElement);
@@ -110,10 +112,10 @@ export function wireDrawing(around) {
 
   /** What is asked of a program. */
   function wishes() {
-    const texts = { language: written, offset_mm: passes, tab_mm: tab, led_um: lag, picks, starts, entries, wire_side: side, direction };
+    const texts = { language: written, offset_mm: passes, tab_mm: tab, slug_tab_mm: slugTab, led_um: lag, picks, starts, entries, wire_side: side, direction };
     const own = Object.fromEntries(Object.entries(texts).map(([key, field]) => [key, field.value.trim()]));
-    const [no_core, common_edges] = [noCore, common].map((box) => (box.checked ? "yes" : ""));
-    return { ...around.values(), drawing: number, ...own, no_core, common_edges, order: completed(order.value, figures), ...reading() };
+    const [rough_first, no_core, common_edges] = [roughFirst, noCore, common].map((box) => (box.checked ? "yes" : ""));
+    return { ...around.values(), drawing: number, ...own, rough_first, no_core, common_edges, order: completed(order.value, figures), ...reading() };
   }
 
   /** Take the drawing away. */

@@ -60,7 +60,7 @@ function headingOf(path, row) {
 export function gripsOf(plan, number) {
   const figure = plan.figures?.find((each) => each.number === number) ?? plan.figures?.[0];
   if (!figure || !plan.path) return null;
-  for (let row = figure.first; row < figure.past; row++) {
+  for (let [row, past] = figure.spans[0]; row < past; row++) {
     if (plan.row_pass?.[row]) return { figure, heading: headingOf(plan.path, row) };
   }
   return null;

@@ -76,7 +76,7 @@ export function figureAt(figures, place, row, nearUm) {
   const away = figures.map(({ thread_um: [x, y] }) => Math.hypot(x - place[0], y - place[1]));
   const nearest = Math.min(...away);
   if (nearest < nearUm) return figures[away.indexOf(nearest)];
-  return figures.find(({ first, past }) => first <= row && row < past) ?? null;
+  return figures.find(({ spans }) => spans.some(([first, past]) => first <= row && row < past)) ?? null;
 }
 
 const DISC = 9; // px: radius of the disc that has the number

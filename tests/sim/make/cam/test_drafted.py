@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from drawings_dxf import drawn
-from made_programs import plan_of, plate_file
+from made_programs import plan_of, plate_file, with_cuts
 
 from parser.geometry.curves import CurveKind, Curves, Floats
 from parser.program import load_program, parse_program
@@ -39,7 +39,7 @@ def test_figures_are_parted_by_pauses_and_jumps_between_their_thread_points(path
 def test_before_a_tab_is_cut_off_the_program_pauses(path: Path) -> None:
     plan = plan_of(path, Making(tab_um=3000.0))
     outline = next(cut for cut in plan.cuts if cut.cut_off)
-    draft = draft_of_plan(plan._replace(cuts=(outline,)))
+    draft = draft_of_plan(with_cuts(plan, [outline]))
     rows = sum(len(way) for one in outline.passes for way in (one.into, one.along, one.out))
     assert [stop[:2] for stop in draft.stops] == [("pause", rows), ("end", len(draft))]
 

@@ -4,12 +4,14 @@ The wire that follows is a plain loop of its own here: the guides go on by some 
 """
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 import pytest
+from drawings_dxf import drawn
 from ezdxf.layouts import Modelspace
 from made_programs import plate, plate_file
 from runs import plain_scenario
@@ -20,7 +22,7 @@ from sim.make.cam.guides import ARC_SHARE, CORNER_SHARE, guided
 from sim.make.cam.maker import MadeProgram, NotMade, made_program
 from sim.make.cam.model import Entry, Figure, FigureCut, PassCut, Thread
 from sim.make.wanted import Wanted
-from sim.setup.making import Making
+from sim.setup.making import Corners, Making
 from sim.setup.scenario import Scenario
 from sim.setup.wire import DEFAULT_WIRE, WireForces
 
@@ -316,3 +318,24 @@ def test_where_nobody_says_where_the_guides_are_the_faces_are_left_open(tmp_path
     assert done.proof is not None
     assert done.proof.faces is None
     assert [note.name for note in done.proof.notes] == ["lag-middle"]
+
+
+def a_disc(space: Modelspace) -> None:
+    space.add_circle((0, 0), 5)
+
+
+def a_house(space: Modelspace) -> None:
+    space.add_lwpolyline([(0, 0), (9, 0), (9, 4), (6.5, 6.5), (0, 6.5)], close=True)
+
+
+@pytest.mark.parametrize("passes_um", [(100.0,), (130.0, 100.0), (140.0, 120.0, 100.0)], ids=len)
+@pytest.mark.parametrize(("draw", "corners"), [(a_disc, "sharp"), (a_house, "chamfer")])
+def test_a_part_that_hangs_by_a_tab_is_proved_for_a_wire_that_lags(
+    tmp_path: Path, draw: Callable[[Modelspace], None], corners: Corners, passes_um: tuple[float, ...]
+) -> None:
+    """Guides that came back from past the end made lines of 20 µm, which the checks took for arcs run backwards."""
+    making = Making(passes_um=passes_um, tab_um=2500.0, lag_um=20.0, corners=corners)
+    done = made_program(drawn(tmp_path, draw), making, TO_3B, plain_scenario())
+    assert isinstance(done, MadeProgram)
+    assert done.proof is not None
+    assert done.is_proved, [*done.proof.counting, *done.proof.faults]

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from made_programs import moved, plan_of, plate_file, proof_of, with_cut
+from made_programs import moved, plan_of, plate_file, proof_of, with_cut, with_cuts
 from runs import machine, plain_scenario
 
 from parser.geometry.curves import curves_between
@@ -192,13 +192,13 @@ def test_a_fit_that_is_too_coarse_is_found(path: Path) -> None:
 def test_a_figure_that_is_not_cut_is_missing(path: Path, kind: str) -> None:
     plan = plan_of(path)
     number = numbers(plan, kind)[0]
-    proof = proof_of(plan._replace(cuts=tuple(cut for cut in plan.cuts if cut.figure.number != number)), path)
+    proof = proof_of(with_cuts(plan, [cut for cut in plan.cuts if cut.figure.number != number]), path)
     assert "missing" in told(proof)
 
 
 def test_a_figure_that_is_cut_twice_is_told(path: Path) -> None:
     plan = plan_of(path)
-    proof = proof_of(plan._replace(cuts=(plan.cuts[0], *plan.cuts)), path)
+    proof = proof_of(with_cuts(plan, [plan.cuts[0], *plan.cuts]), path)
     assert "twice" in told(proof)
 
 

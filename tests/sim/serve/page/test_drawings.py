@@ -153,7 +153,7 @@ def test_plans_are_those_that_the_maker_has_and_lie_as_the_drawing_does(served: 
     number = came(served, dxf)
     plan = planned(served, number)
     (figure,) = plan["figures"]
-    assert (figure["number"], figure["first"], figure["past"]) == (1, 0, len(plan["path"]["kind"]))
+    assert (figure["number"], figure["spans"]) == (1, [[0, len(plan["path"]["kind"])]])
     assert figure["thread_um"] == [plan["path"]["place_x_um"][0], plan["path"]["place_y_um"][0]]
     assert extent(plan["path"])[::3] == (29_900.0, 50_100.0)  # µm: 0.1 mm outside
     assert plan["is_lead"][0], "from its thread point the wire comes by a lead"

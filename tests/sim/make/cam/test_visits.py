@@ -1,0 +1,167 @@
+"""In rounds over all figures, nothing falls with work in it that is still to be done, and the program is proved."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from drawings_dxf import drawn
+from ezdxf.layouts import Modelspace
+from made_programs import plan_of
+from runs import plain_scenario
+
+from parser.write.iso import iso_choices
+from sim.make.cam.document import figure_sums
+from sim.make.cam.maker import MadeProgram, made_program
+from sim.make.cam.model import CutPlan
+from sim.make.wanted import Wanted
+from sim.measure.compare.rings import polygon
+from sim.setup.making import LayerWish, Making
+
+TRIMMED = (130.0, 100.0)
+TO_3B = Wanted("3b")
+TO_ISO = Wanted("iso", iso_choices("fast-wire"))
+WAYS = {
+    "rough first": Making(passes_um=TRIMMED, rough_first=True, tab_um=3000.0),
+    "slugs by tabs": Making(slug_tab_um=1500.0),
+    "both": Making(passes_um=TRIMMED, rough_first=True, slug_tab_um=1500.0, tab_um=3000.0),
+    "three passes": Making(passes_um=(140.0, 120.0, 100.0), slug_tab_um=1500.0, tab_um=2500.0),
+    "no tab": Making(rough_first=True, passes_um=TRIMMED),
+}
+
+
+def nested(space: Modelspace) -> None:
+    """A part with a round and a square hole; in the round one stands a part with a hole of its own."""
+    space.add_lwpolyline([(0, 0), (60, 0), (60, 30), (0, 30)], close=True)
+    space.add_circle((16, 15), 12)
+    space.add_lwpolyline([(36, 8), (52, 8), (52, 22), (36, 22)], close=True)
+    space.add_lwpolyline([(10, 10), (22, 10), (22, 20), (10, 20)], close=True)
+    space.add_circle((16, 15), 2.5)
+
+
+def plate(space: Modelspace) -> None:
+    space.add_lwpolyline([(0, 0), (40, 0), (40, 24), (0, 24)], close=True)
+    space.add_circle((10, 12), 5)
+    space.add_lwpolyline([(24, 7), (34, 7), (34, 17), (24, 17)], close=True)
+
+
+def made(folder: Path, making: Making, wanted: Wanted = TO_3B) -> MadeProgram:
+    done = made_program(drawn(folder, plate), making, wanted, plain_scenario())
+    assert isinstance(done, MadeProgram)
+    return done
+
+
+def within(plan: CutPlan) -> dict[int, set[int]]:
+    """Indices of the cuts that lie within each one, by polygons."""
+    rings = [polygon(cut.figure.contour) for cut in plan.cuts]
+    return {
+        at: {other for other, inner in enumerate(rings) if other != at and ring.contains(inner)}
+        for at, ring in enumerate(rings)
+    }
+
+
+def freed_by(plan: CutPlan) -> Iterator[tuple[int, int]]:
+    """Of each cut the visit that lets its slug or its part fall: that of its tab, else of its first pass."""
+    for at, cut in enumerate(plan.cuts):
+        wanted = len(cut.passes) if cut.cut_off else 0
+        yield at, next(n for n, v in enumerate(plan.visits) if v.cut == at and v.first <= wanted < v.past)
+
+
+@pytest.mark.parametrize("name", WAYS)
+def test_nothing_falls_with_work_in_it_that_is_still_to_be_done(tmp_path: Path, name: str) -> None:
+    plan = plan_of(drawn(tmp_path, nested), WAYS[name])
+    assert len(plan.cuts) == 5
+    done = [(visit.cut, number) for visit in plan.visits for number in range(visit.first, visit.past)]
+    assert sorted(done) == [(at, n) for at, cut in enumerate(plan.cuts) for n in range(len(cut.all_passes))]
+    inner = within(plan)
+    for at, when in freed_by(plan):
+        assert all(number < when for number, visit in enumerate(plan.visits) if visit.cut in inner[at])
+    for at, cut in enumerate(plan.cuts):
+        own = [number for number, visit in enumerate(plan.visits) if visit.cut == at]
+        passes = [n for number in own for n in range(plan.visits[number].first, plan.visits[number].past)]
+        is_slug = bool(cut.cut_off) and cut.figure.runs_inside
+        assert passes == ([0, len(cut.passes), *range(1, len(cut.passes))] if is_slug else sorted(passes))
+
+
+def test_first_passes_come_before_the_others_and_slugs_fall_behind_all_of_them(tmp_path: Path) -> None:
+    plan = plan_of(drawn(tmp_path, plate), WAYS["both"])
+    kinds = [
+        "rough" if visit.first == 0 else "trim" if visit.past <= len(plan.cuts[visit.cut].passes) else "off"
+        for visit in plan.visits
+        if plan.cuts[visit.cut].figure.kind == "hole"
+    ]
+    assert kinds == ["rough"] * 2 + ["off"] * 2 + ["trim"] * 2
+    assert [visit.has_stop for visit in plan.visits] == [False] + [True] * (len(plan.visits) - 1)
+
+
+def test_figure_after_figure_is_as_it_was(tmp_path: Path) -> None:
+    plan = plan_of(drawn(tmp_path, plate), Making(passes_um=TRIMMED, tab_um=3000.0))
+    assert [tuple(visit) for visit in plan.visits] == [
+        (0, 0, 2, True, False),
+        (1, 0, 2, True, True),
+        (2, 0, 2, True, True),
+        (2, 2, 3, False, True),
+    ]
+
+
+@pytest.mark.parametrize("wanted", [TO_3B, Wanted("4b"), TO_ISO], ids=["3b", "4b", "iso"])
+@pytest.mark.parametrize("name", ["rough first", "slugs by tabs", "both", "three passes"])
+def test_programs_in_rounds_are_proved(tmp_path: Path, name: str, wanted: Wanted) -> None:
+    making = WAYS[name]._replace(tab_um=WAYS[name].tab_um or 2500.0)
+    done = made(tmp_path, making, wanted)
+    assert done.proof is not None
+    assert done.is_proved, [*done.proof.counting, *done.proof.faults]
+    run = done.proof.run
+    assert run is not None
+    assert run.remains is not None
+    freed = sorted((piece.freed.contour, piece.kind) for piece in run.remains.pieces.freed)
+    assert [kind for _, kind in freed] == ["slug", "slug", "part"]
+    if making.slug_tab_um:  # behind both first passes: the second hole is cut off on from its own
+        assert freed[0][0] >= 2
+    sums = figure_sums(done)
+    assert sum(one.blocks for one in sums) == int(np.count_nonzero(~done.program.toolpath.is_jump))
+    assert all(len(one.spans) > 1 for one in sums[:2])
+
+
+def test_a_hole_alone_is_cut_off_without_being_threaded_again(tmp_path: Path) -> None:
+    path = drawn(tmp_path, lambda space: space.add_circle((0, 0), 5))
+    making = Making(slug_tab_um=1500.0, passes_um=TRIMMED, side="inside")
+    done = made_program(path, making, TO_3B, plain_scenario())
+    assert isinstance(done, MadeProgram)
+    assert done.is_proved
+    assert [visit.is_threaded for visit in done.plan.visits] == [True, False, False]
+
+
+def test_the_first_pass_leaves_a_slug_a_tab_as_long_as_asked_for(tmp_path: Path) -> None:
+    plan = plan_of(drawn(tmp_path, plate), Making(slug_tab_um=1500.0))
+    for cut in (cut for cut in plan.cuts if cut.cut_off):
+        way = cut.passes[0].along
+        gap = np.hypot(*(way.end_um[-1] - way.start_um[0]))
+        assert gap == pytest.approx(1500.0, rel=0.05)
+
+
+def test_holes_too_small_for_a_tab_are_cut_all_round_and_so_are_those_without_a_core(tmp_path: Path) -> None:
+    path = drawn(tmp_path, plate)
+    small = plan_of(path, Making(slug_tab_um=7_000.0))
+    assert [bool(cut.cut_off) for cut in small.cuts] == [False, True, False]
+    coreless = plan_of(path, Making(slug_tab_um=1500.0, no_core=True))
+    holes = [cut for cut in coreless.cuts if cut.figure.runs_inside]
+    assert [(cut.is_coreless, bool(cut.cut_off)) for cut in holes] == [(True, False)] * 2
+
+
+def test_an_order_that_is_asked_for_holds_in_each_round(tmp_path: Path) -> None:
+    path = drawn(tmp_path, plate)
+    plan = plan_of(path, Making(passes_um=TRIMMED, rough_first=True, tab_um=3000.0, order=(2, 1, 3)))
+    assert [plan.cuts[visit.cut].figure.number for visit in plan.visits] == [2, 1, 2, 1, 3, 3]
+
+
+def test_ranks_keep_their_order_within_a_round(tmp_path: Path) -> None:
+    def draw(space: Modelspace) -> None:
+        for number in range(4):
+            space.add_circle((12 * number, 0), 4, dxfattribs={"layer": f"L{number}"})
+
+    layers = tuple(LayerWish(f"L{number}", rank=3 - number) for number in range(4))
+    making = Making(passes_um=TRIMMED, rough_first=True, side="inside", layers=layers)
+    plan = plan_of(drawn(tmp_path, draw), making)
+    order = [plan.cuts[visit.cut].figure.layer for visit in plan.visits]
+    assert order == ["L3", "L2", "L1", "L0"] * 2
