@@ -101,7 +101,7 @@ def _refused(name: Path | str, what: str, detail: str = "") -> FileUnreadableErr
 
 PROGRAMS = ("kind-program", "kind-iso")
 """Terms of texts with blocks of 3B or 4B somewhere, and with lines of ISO: what a drawing is not."""
-PLOTS = ("kind-hpgl", "kind-svg", "kind-curve-list")
+PLOTS = ("kind-hpgl", "kind-svg", "kind-iges", "kind-curve-list")
 """Terms of files that are read as drawings beside DXF."""
 HINTS: Mapping[str, str] = MappingProxyType(
     {
@@ -109,7 +109,6 @@ HINTS: Mapping[str, str] = MappingProxyType(
         "kind-dxf": "hint-compare",
         "kind-dwg": "hint-save-dxf",
         "kind-step": "hint-save-dxf",
-        "kind-iges": "hint-save-dxf",
         **dict.fromkeys(PLOTS, "hint-make-program"),
         "kind-archive": "hint-unpack",
         "kind-office": "hint-plain-text",

@@ -19,6 +19,7 @@ from ezdxf.math import Vec3
 
 from parser.drawing.dxf.blocks import Placed, placed_entities
 from parser.drawing.dxf.document import Linetypes, read_document
+from parser.drawing.dxf.dwg import dxf_of_dwg
 from parser.drawing.dxf.entities import (
     behind,
     of_extrusion,
@@ -45,7 +46,7 @@ from parser.drawing.model import (
 from parser.drawing.plane import FARTHEST_UM
 from parser.drawing.plots.source import Source
 from parser.drawing.plots.sources import source_of
-from parser.files import read_bytes
+from parser.files import kind_of, read_bytes
 from parser.findings.catalogue import LANGUAGES, Bilingual, Remark, remark_text
 from parser.findings.errors import DrawingError, Message
 from parser.geometry.curves import Curves, Floats, extents
@@ -257,7 +258,7 @@ def read_drawing(  # noqa: PLR0913, PLR0917 - all that can be asked of a drawing
     fit_um: float | None = None,
     unit: str | None = None,
 ) -> Drawing:
-    """The drawing of a DXF file, ASCII or binary, of any release; of a plot in HPGL, or a list of curves in CSV.
+    """The drawing of a DXF file, ASCII or binary, of any release; of a plot in HPGL, SVG, IGES, or curves in CSV.
 
     Parameters
     ----------
@@ -285,7 +286,8 @@ def read_drawing(  # noqa: PLR0913, PLR0917 - all that can be asked of a drawing
         source = source_of(data)
     except DrawingError as error:
         raise DrawingError("in-file", file=path, message=error.message) from None
-    source = source or _of_dxf(path, data)
+    if source is None:
+        source = _of_dxf(path, dxf_of_dwg(path, data) if kind_of(data) == "kind-dwg" else data)
     try:
         with np.errstate(all="ignore"):  # damaged numbers overflow; what comes of them is left out by its value
             return _drawing(path.name, source, _ReadWith(layer, gap_um, flatten_um, fit_um, own))

@@ -71,7 +71,7 @@ KINDS: dict[str, dict[str, bytes]] = {
     "kind-toml": {"machine": (ROOT / "sim/setup/machine/dk7740.toml").read_bytes(), "few": b'a = 1\nb = "x"\n'},
     "kind-card-log": {"log": b"drycut card log 1\nsettings {}\n"},
 }
-DRAWN = {"kind-dxf", "kind-dwg", "kind-hpgl", "kind-svg", "kind-curve-list"}
+DRAWN = {"kind-dxf", "kind-dwg", "kind-hpgl", "kind-svg", "kind-iges", "kind-curve-list"}
 CASES = [(kind, name) for kind, several in KINDS.items() for name in several]
 
 

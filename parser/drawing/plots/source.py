@@ -73,6 +73,18 @@ class Sheet:
         spline.control_points = [(place.real, place.imag, 0.0) for place in places]
         spline.knots = [0.0] * 4 + [1.0] * 4
 
+    def spline(self, degree: int, knots: list[float], weights: list[float], places: list[complex], **how: Any) -> None:
+        """A rational B-spline by its knots, and its weights and control points, one behind the other."""
+        self._one_more()
+        spline = self._space.add_spline(degree=degree, dxfattribs=how)
+        spline.control_points = [(place.real, place.imag, 0.0) for place in places]
+        spline.knots, spline.weights = knots, weights
+
+    def point(self, place: complex, **how: Any) -> None:
+        """A point."""
+        self._one_more()
+        self._space.add_point((place.real, place.imag), dxfattribs=how)
+
     def ellipse(self, center: complex, major: complex, ratio: float, params: tuple[float, float], **how: Any) -> None:
         """An arc of an ellipse about a centre, by its longer half axis, counter-clockwise between two parameters."""
         self._one_more()
