@@ -68,14 +68,17 @@ def find_turns(toolpath: Toolpath, contour: Ints) -> Turns:
 def _apart(there: Ints, back: Ints, before_um: Floats) -> Ints:
     """Rows (k,) that turn back, without those whose way back would be the step of another one: of two the shorter step.
 
-    Behind a corner the step itself runs back beside the side before it.
+    Behind a corner the step itself runs back beside the side before it. Where one goes, those about it may meet.
     """
-    step_um = before_um[back] - before_um[there + 1]
-    meets = back[:-1] >= there[1:] + 1
-    gone = np.zeros(len(there), dtype=np.bool_)
-    gone[:-1] |= meets & (step_um[:-1] > step_um[1:])
-    gone[1:] |= meets & (step_um[:-1] <= step_um[1:])
-    return there[~gone]
+    gone = np.ones(1, dtype=np.bool_)
+    while gone.any():
+        step_um = before_um[back] - before_um[there + 1]
+        meets = back[:-1] >= there[1:] + 1
+        gone = np.zeros(len(there), dtype=np.bool_)
+        gone[:-1] |= meets & (step_um[:-1] > step_um[1:])
+        gone[1:] |= meets & (step_um[:-1] <= step_um[1:])
+        there, back = there[~gone], back[~gone]
+    return there
 
 
 MOST_ASIDE_UM = 150.0

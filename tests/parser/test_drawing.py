@@ -674,7 +674,7 @@ def test_joints_are_those_of_a_plain_search(seed):
     [
         (b"", "is empty; expected a DXF drawing"),
         (b" \n", "is empty; expected a DXF drawing"),
-        (b"AC1032\0\0\0\0\0", "is no DXF file (this is a DWG drawing); expected a drawing saved as DXF"),
+        (b"AC1032\0\0\0\0\0", "is a DWG drawing; save it as DXF, or install the ODA File Converter"),
         (b"B1 B2 B3 GX L1\nDD\n", "is no DXF file (this is a 3B program); expected a drawing saved as DXF"),
         (b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR", "is no DXF file (this is a picture); expected a drawing saved as DXF"),
         (

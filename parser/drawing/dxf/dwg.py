@@ -7,6 +7,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Final
 
+from parser.files import read_bytes
 from parser.findings.errors import DrawingError
 
 _RELEASE: Final = "R2018"
@@ -26,7 +27,7 @@ def dxf_of_dwg(path: Path, data: bytes) -> bytes:
         try:
             with _with_a_screen():
                 odafc.convert(source, made, version=_RELEASE, replace=True)  # type: ignore[attr-defined]
-            return made.read_bytes()
+            return read_bytes(made)
         except Exception as error:  # a program of others ends in any error
             raise DrawingError("dwg-not-converted", path=path, why=type(error).__name__) from None
 

@@ -102,3 +102,27 @@ def test_a_tab_round_corners_is_not_read_as_a_jump(
     assert isinstance(found, MadeProgram)
     assert found.written.differs == ""
     assert not found.program.toolpath.is_jump.any()
+
+
+def test_passes_are_told_apart_where_the_open_stretch_ends_beside_a_chamfer(tmp_path: Path) -> None:
+    """Blocks of 120 µm, from the chamfer to where the tab begins, were taken for a step to the next pass."""
+
+    def corner(space: Modelspace) -> None:
+        space.add_lwpolyline([(0, 0), (5.13, 0), (5.13, 2.562), (0, 2.562)], close=True)
+
+    making = Making(
+        passes_um=(140.0, 120.0, 100.0),
+        tab_um=2500.0,
+        overcut_um=300.0,
+        corners="chamfer",
+        direction="ccw",
+        entries_um=(Point(2560.0, 2562.0),),
+    )
+    done = run(drawn(tmp_path, corner), making)
+    passes = find_passes(done.program.toolpath).passes
+    assert [(each.number, each.is_back, each.is_tab) for each in passes][:3] == [
+        (1, False, False),
+        (2, True, False),
+        (3, False, False),
+    ]
+    assert done.is_proved
