@@ -83,6 +83,8 @@ class Making(NamedTuple):
         The unit that it is drawn in; the one that the file names where None.
     picks
         What of the contours is cut; all of them where empty.
+    spared
+        Curves on which no cut starts: those that fit others, or are looked at.
     gap_um
         Ends of the drawing that are no farther apart are joined.
     passes_um
@@ -131,6 +133,7 @@ class Making(NamedTuple):
     layer: str | None = None
     unit: str | None = None
     picks: tuple[Pick, ...] = ()
+    spared: tuple[Pick, ...] = ()
     gap_um: float = 10.0
     passes_um: tuple[float, ...] = ()
     returning: Returning = "back"
@@ -235,6 +238,7 @@ PROGRAM = Section(
             option="--tolerance",
         ),
         Key("pick", Picks(), "making.picks", default=(), option="--pick"),
+        Key("spare", Picks(), "making.spared", default=(), option="--spare"),
         Key("passes_mm", Lengths(OR_NONE_MM), "making.passes_um", default=(), option="--pass"),
         Key("returning", OneOf(RETURNINGS), "making.returning", default=_USUAL.returning),
         Key("side", OneOf(SIDE_WISHES), "making.side", default=_USUAL.side, option="--side"),

@@ -78,8 +78,8 @@ def middles(room: Room, side: Floats, wanted: Ints, reach_um: float) -> Entries:
     """Middles of curves of each of the figures `wanted`, of circles all quarters, where a mark hurts least first.
 
     Lines of 1 mm and more come first, the longest before the others, then what else there is, by length; arcs of a
-    radius no larger than the reach of the wire only where there is nothing else. `side` (figures,) is 1 where the waste
-    lies within.
+    radius no larger than the reach of the wire only where there is nothing else, and spared curves only where all are.
+    `side` (figures,) is 1 where the waste lies within.
     """
     return _entries(room, side, wanted, reach_um, _Looked(np.full(len(room.figure), 0.5), 4 * len(room.figure), 4))
 
@@ -92,6 +92,7 @@ def _entries(room: Room, side: Floats, wanted: Ints, reach_um: float, looked: _L
     quarter = np.arange(len(row)) - np.searchsorted(row, row)
     is_small = curves.is_arc & (curves.radius_um <= reach_um)
     grade = np.where(is_small, 2, np.where(~curves.is_arc & (curves.length_um >= _LONG_UM), 0, 1))
+    grade[room.is_spared[row]] = 3
     on_axis = np.mod(_to_axis(curves) + 0.25 * quarter * curves.length_um, curves.length_um)
     along = np.where(_is_circle(curves), on_axis, looked.share[row] * curves.length_um)
     along = _to_whole(room, row, along)
@@ -101,7 +102,7 @@ def _entries(room: Room, side: Floats, wanted: Ints, reach_um: float, looked: _L
     figure, grade = room.figure[row[order]], grade[order]
     start = np.flatnonzero(np.diff(figure, prepend=-1))
     of = np.cumsum(np.diff(figure, prepend=-1) > 0) - 1
-    is_best = (np.arange(len(order)) - start[of] < looked.most) & ((grade < 2) | (grade[start[of]] == 2))
+    is_best = (np.arange(len(order)) - start[of] < looked.most) & ((grade < 2) | (grade == grade[start[of]]))
     order = order[is_best]
     out = _out(room, side, row[order], headings_along(room.curves, row[order], along[order]))
     return Entries(row[order], along[order], place[order], out, np.full(len(order), reach_um))
@@ -116,9 +117,9 @@ class EntryRequest(NamedTuple):
 
 
 def across_from(room: Room, side: Floats, request: EntryRequest) -> tuple[Entries, Ints]:
-    """Entries straight across from thread points, the nearest of each first, arcs no larger than the reach last.
+    """Entries straight across from thread points, and which of these (m,) each is for: the nearest of each first.
 
-    With them, which thread point (m,) each is for.
+    Arcs no larger than the reach come behind all others, and spared curves last.
     """
     row, whose = room.rows(request.figure)
     place = request.place_um[whose]
@@ -130,13 +131,15 @@ def across_from(room: Room, side: Floats, request: EntryRequest) -> tuple[Entrie
     is_across = (np.abs((by * heading).sum(axis=1)) < _ACROSS * length) & (length > 0.0)
     is_small = room.curves.is_arc[row] & (room.curves.radius_um[row] <= request.reach_um)
     found = np.flatnonzero(is_across)
-    found = found[np.lexsort([length[found], is_small[found], whose[found]])]
+    found = found[np.lexsort([length[found], is_small[found], room.is_spared[row[found]], whose[found]])]
     out, aside = _out(room, side, row[found], heading[found]), np.full(len(found), request.reach_um)
     return Entries(row[found], along[found], foot[found], out, aside), whose[found]
 
 
 def corners(room: Room, side: Floats, request: EntryRequest) -> tuple[Entries, Ints]:
     """Entries where curves meet, from midway between both, those nearest to each of the thread points first.
+
+    Corners of spared curves come last.
 
     With them, which thread point (m,) each is for. Where the waste lies in a corner, the wire reaches no nearer to it
     than where it touches both sides.
@@ -146,13 +149,15 @@ def corners(room: Room, side: Floats, request: EntryRequest) -> tuple[Entries, I
     first = np.searchsorted(whose, whose)
     last = np.searchsorted(whose, whose, side="right") - 1
     at = np.arange(len(row))
-    arriving = arriving[np.where(at > first, at - 1, last)]
+    before = np.where(at > first, at - 1, last)
+    arriving = arriving[before]
+    is_spared = room.is_spared[row] | room.is_spared[row[before]]
     sense = side[room.figure[row], None]
     normal, middle = sense * to_left(leaving), sense * (to_left(leaving) + to_left(arriving))
     length = np.hypot(*middle.T)
     off = np.hypot(*(room.curves.start_um[row] - request.place_um[whose]).T)
     corner = np.flatnonzero(length > _ACROSS)
-    corner = corner[np.lexsort([off[corner], whose[corner]])]
+    corner = corner[np.lexsort([off[corner], is_spared[corner], whose[corner]])]
     out = middle[corner] / length[corner, None]
     turn = (arriving[:, 0] * leaving[:, 1] - arriving[:, 1] * leaving[:, 0])[corner]
     aside = request.reach_um / np.where(sense[corner, 0] * turn > 0.0, (out * normal[corner]).sum(axis=1), 1.0)

@@ -32,10 +32,21 @@ _ROUNDS: Final = 50  # each one halves a ball, or more, where it does not end
 
 
 class Room(NamedTuple):
-    """Contours (n,) of all figures, and which figure (n,) each curve is of, as its place in their sequence."""
+    """Contours of all figures.
+
+    Attributes
+    ----------
+    curves
+        (n,) of all of them.
+    figure
+        (n,) which figure each is of, as its place in their sequence.
+    is_spared
+        (n,) whether no cut is to start on it.
+    """
 
     curves: Curves
     figure: Ints
+    is_spared: Bools
 
     def rows(self, figure: Ints) -> tuple[Ints, Ints]:
         """Rows (m,) of figures (k,), all of one behind those of the other, and whose they are (m,), 0 to k − 1."""
@@ -45,10 +56,12 @@ class Room(NamedTuple):
         return np.arange(len(whose)) - before[whose] + first[whose], whose
 
 
-def room_of(figures: Sequence[Figure]) -> Room:
-    """The room between the contours of figures, one at least."""
+def room_of(figures: Sequence[Figure], is_spared: Bools | None = None) -> Room:
+    """The room between the contours of figures, one at least; of their curves (n,) none is spared where None."""
     number = [len(figure.contour) for figure in figures]
-    return Room(joined([figure.contour for figure in figures]), np.repeat(np.arange(len(figures)), number))
+    which = np.repeat(np.arange(len(figures)), number)
+    spared = np.zeros(len(which), dtype=np.bool_) if is_spared is None else is_spared
+    return Room(joined([figure.contour for figure in figures]), which, spared)
 
 
 def are_free(room: Room, ways: Curves, by_um: float) -> Bools:

@@ -1,14 +1,19 @@
-"""Which contours of a drawing are picked: by entity, place, window, layer or colour."""
+"""Which contours of a drawing are picked: by entity, place, window, layer or colour.
 
-from collections.abc import Sequence
+Which of their curves are spared: no cut starts on them.
+"""
+
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
-from parser.drawing.model import Entity
-from parser.geometry.curves import Bools, Floats, extents, is_inside
+from parser.drawing.model import Drawing, Entity
+from parser.findings.catalogue import Remark
+from parser.geometry.curves import Bools, Curves, Floats, extents, is_inside, joined
+from parser.geometry.distance import distance_to_curves
 from sim.make.cam.contours import Contours, Nesting
-from sim.make.cam.model import CannotCutError, Refusal
+from sim.make.cam.model import CannotCutError, Figure, Refusal, Thread
 from sim.setup.picks import OfColor, OfEntity, OfLayer, OfPart, OfWindow, Pick
 
 
@@ -58,6 +63,54 @@ def _picked(among: Pickable, pick: Pick) -> Bools:
             return _part_at(among, np.array([place_um]))
         case OfWindow(low_um, high_um):
             low, high = _boxes(among)
+            within: Bools = np.all((low >= low_um) & (high <= high_um), axis=1)
+            return within
+
+
+def spared(drawing: Drawing, figures: Sequence[Figure], picks: Sequence[Pick]) -> Bools:
+    """(n,) which curves of the contours of figures no cut is to start on, all contours one behind the other.
+
+    A place spares the curve that is nearest to it. CannotCutError, ``no-spare``, where one of the picks spares nothing.
+    """
+    curves = joined([each.contour for each in figures])
+    found = np.zeros(len(curves), dtype=np.bool_)
+    if not picks:
+        return found
+    entities = [drawing.entities[at] for figure in figures for at in figure.entity.tolist()]
+    for pick in picks:
+        of_pick = _spared(curves, entities, pick)
+        if not of_pick.any():
+            raise CannotCutError(Refusal("no-spare", (), (("pick", str(pick)),)))
+        found |= of_pick
+    return found
+
+
+def spare_notes(drawing: Drawing, cuts: Sequence[tuple[Figure, Thread]], picks: Sequence[Pick]) -> Iterator[Remark]:
+    """Cuts that start on curves that are to be spared all the same: no other one has room."""
+    if picks:
+        is_spared = spared(drawing, [figure for figure, _ in cuts], picks)
+        first = np.cumsum([0, *(len(figure.contour) for figure, _ in cuts)])
+        rows = [int(before) + thread.entry.row for before, (_, thread) in zip(first, cuts, strict=False)]
+        on = [str(figure.number) for row, (figure, _) in zip(rows, cuts, strict=True) if is_spared[row]]
+        if on:
+            yield Remark("starts-on-spared", {"figures": ", ".join(on)})
+
+
+def _spared(curves: Curves, entities: Sequence[Entity], pick: Pick) -> Bools:
+    match pick:
+        case OfEntity(handle):
+            return np.array([each.handle.casefold() == handle.casefold() for each in entities], dtype=np.bool_)
+        case OfLayer(layer):
+            return np.array([each.layer.casefold() == layer.casefold() for each in entities], dtype=np.bool_)
+        case OfColor(color):
+            return np.array([each.color == color for each in entities], dtype=np.bool_)
+        case OfPart((x, y)):
+            rows = np.arange(len(curves))
+            off = distance_to_curves(curves, rows, np.full(len(rows), x), np.full(len(rows), y))[0]
+            nearest: Bools = rows == int(np.argmin(off))
+            return nearest
+        case OfWindow(low_um, high_um):
+            low, high = extents(curves)
             within: Bools = np.all((low >= low_um) & (high <= high_um), axis=1)
             return within
 

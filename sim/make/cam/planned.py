@@ -26,6 +26,7 @@ from sim.make.cam.nest import InKerf, cut_in_kerf, nests_of, refuse_misfits
 from sim.make.cam.order import in_order
 from sim.make.cam.parts import parts_of
 from sim.make.cam.passes import figure_cut, offsets_of
+from sim.make.cam.picks import spare_notes
 from sim.make.cam.threads import thread_notes, threads_of
 from sim.make.cam.visits import visited
 from sim.setup.making import Making
@@ -99,6 +100,7 @@ def _plan_of(
     in_kerf = {at: each.thread for at, each in nests.in_kerf.items()}
     threads = threads_of(drawing, figures, making, max(widest_um), in_kerf)
     notes += (*nests.notes, *thread_notes(figures, threads, making))
+    notes += tuple(spare_notes(drawing, list(zip(figures, threads, strict=True)), making.spared))
     order = nests.in_order(in_order(figures, threads, making))
     ways = [nests.in_kerf.get(each) if threads[each].by == "kerf" else None for each in order]
     cuts = _cuts([(figures[each], threads[each]) for each in order], ways, passes_um, making)

@@ -27,6 +27,7 @@ from sim.make.cam.leads import TOLERANCE_UM, Room, are_free, nearest, room_of
 from sim.make.cam.model import CannotCutError, Entry, Figure, Refusal, Thread, ThreadedBy, refused
 from sim.make.cam.order import around
 from sim.make.cam.passes import has_slug_tab
+from sim.make.cam.picks import spared
 from sim.setup.making import Making
 
 ON_UM: Final = 1.0
@@ -209,7 +210,7 @@ def threads_of(
     nothing else is asked, the wire begins on the contour. CannotCutError where a thread point cannot be, or there is no
     room for one.
     """
-    waste = _Waste(figures, reach_um)
+    waste = _Waste(figures, reach_um, spared(drawing, figures, making.spared))
     threads = waste.threads_at(_whole(making.starts_um), "asked", {})
     if making.thread_layer is None:
         threads |= waste.lone(points_of(drawing), threads)
@@ -269,11 +270,11 @@ def _why_straight(figure: Figure, making: Making) -> str:
 class _Waste:
     """The waste of figures, in which their thread points lie."""
 
-    def __init__(self, figures: Sequence[Figure], reach_um: float) -> None:
+    def __init__(self, figures: Sequence[Figure], reach_um: float, is_spared: Bools) -> None:
         self.figures = figures
         self.reach_um = reach_um
         self.clear_um = max(reach_um, _LEAST_UM)
-        self.room: Room = room_of(figures)
+        self.room: Room = room_of(figures, is_spared)
         self.side: Floats = np.where([figure.runs_inside for figure in figures], 1.0, -1.0)
 
     def threads_at(self, place_um: Floats, by: ThreadedBy, taken: Mapping[int, Thread]) -> dict[int, Thread]:

@@ -116,6 +116,7 @@ def test_dependent_values_are_taken_all_at_once(tmp_path: Path) -> None:
 TYPED: dict[str, tuple[list[str], str]] = {
     "tolerance_um": (["4um"], "4.0"),
     "pick": (["2F", "12.5,8"], "['2F', '12.5,8']"),
+    "spare": (["2F", "12.5,8"], "['2F', '12.5,8']"),
     "passes_mm": (["0.18mm", "120um"], "[0.18, 0.12]"),
     "side": (["outside"], "'outside'"),
     "direction": (["cw"], "'cw'"),

@@ -1,9 +1,13 @@
 """Picks: what is named is cut, by the drawing's own parts and holes; a slip is refused."""
 
 import math
+from pathlib import Path
 
 import pytest
+from drawings_dxf import drawn
 from drawn_loops import Piece, circle, drawing_of, square
+from ezdxf.layouts import Modelspace
+from made_programs import plan_of
 
 from parser.drawing.model import Drawing
 from parser.findings.errors import SettingsError
@@ -94,3 +98,43 @@ def test_words_that_pick_nothing_are_refused(text: str) -> None:
 @pytest.mark.parametrize("text", ["2F", "12.5,-8", "0,0..40,30.25", "layer:CUT:2", "color:7"])
 def test_a_pick_is_written_as_it_is_read(text: str) -> None:
     assert str(pick_of(text, "")) == text
+
+
+def lined(space: Modelspace) -> None:
+    """A rectangle of four lines, the upper and the longest one in red; and a hole."""
+    corners = [(0, 0), (30, 0), (30, 10), (0, 10)]
+    for at, (start, end) in enumerate(zip(corners, [*corners[1:], corners[0]], strict=True)):
+        space.add_line(start, end, dxfattribs={"color": 1 if at == 2 else 7, "layer": "FIT" if at == 0 else "0"})
+    space.add_circle((15, 5), 2)
+
+
+@pytest.mark.parametrize(
+    ("picks", "starts_at"),
+    [
+        ((), (15.0, 0.0)),
+        (("layer:FIT",), (15.0, 10.0)),
+        (("color:1", "layer:FIT"), (0.0, 5.0)),
+        (("15,1", "15,9", "-1,-1..1,11"), (30.0, 5.0)),
+    ],
+)
+def test_no_cut_starts_on_an_edge_that_is_spared(
+    tmp_path: Path, picks: tuple[str, ...], starts_at: tuple[float, float]
+) -> None:
+    making = Making(spared=tuple(pick_of(pick, "test") for pick in picks))
+    plan = plan_of(drawn(tmp_path, lined), making)
+    (entry,) = [cut.thread.entry for cut in plan.cuts if cut.figure.kind == "outline"]
+    assert (entry.place_um.x / 1000.0, entry.place_um.y / 1000.0) == starts_at
+    assert "starts-on-spared" not in [note.name for note in plan.notes]
+
+
+def test_where_all_edges_are_spared_the_cut_starts_on_one_and_that_is_told(tmp_path: Path) -> None:
+    making = Making(spared=(pick_of("-5,-5..35,15", "test"),))
+    plan = plan_of(drawn(tmp_path, lined), making)
+    (note,) = [note for note in plan.notes if note.name == "starts-on-spared"]
+    assert note.values == {"figures": "1, 2"}
+
+
+def test_an_edge_that_nobody_draws_cannot_be_spared(tmp_path: Path) -> None:
+    with pytest.raises(CannotCutError) as caught:
+        plan_of(drawn(tmp_path, lined), Making(spared=(pick_of("layer:OTHER", "test"),)))
+    assert caught.value.refusal.why == "no-spare"

@@ -16,6 +16,7 @@ from sim.make.wanted import Wanted
 from sim.measure.compare.rings import polygon
 from sim.setup.making import Making
 
+TO_3B = Wanted("3b")
 BY_UM = 100.0
 SAME_UM = 20.0  # of area over border: gaps of 8 µm, ends in between
 OFF_UM = 15.0  # a bridged gap moves a corner by as much as it is wide
@@ -36,7 +37,7 @@ def cut_of(made: MadeProgram, wanted: shapely.Polygon) -> FigureCut | None:
 def made_of(folder: Path, seed: int) -> tuple[Sheet, MadeProgram | NotMade]:
     drawn = sheet(folder, seed)
     making = Making(passes_um=(BY_UM,), corners="round")
-    return drawn, unproved(drawn.path, making, Wanted("3b"), plain_scenario())
+    return drawn, unproved(drawn.path, making, TO_3B, plain_scenario())
 
 
 @pytest.mark.parametrize("seed", cases(12, 10_000))
@@ -60,7 +61,7 @@ def test_a_random_sheet_is_cut_as_it_was_drawn(tmp_path: Path, seed: int) -> Non
         for ring, cut in zip(part, (outline_cut, *holes), strict=True):
             off_by_shapely(cut, shapely.affinity.scale(ring, 1000.0, 1000.0, origin=(0, 0)))
     assert found == len(done.plan.cuts)
-    assert done.written.off_um < 1.5
+    assert done.written.off_um < TO_3B.bound_um
 
 
 def off_by_shapely(cut: FigureCut, ring: shapely.Polygon) -> None:
