@@ -176,10 +176,9 @@ class _Found(NamedTuple):
 def find_cuts(toolpath: Toolpath, contour: Ints) -> Cuts:
     """Stretches of the contours; `contour` (n,) is each row's, −1 on jumps."""
     found = _passes_and_sections(toolpath, contour)
-    left = _left_open(toolpath, found.others)
+    left, closing = _left_open(toolpath, found.others)
     tabs: dict[int, tuple[int, list[Section]]] = {}
     if left:
-        closing = distinct(closers(toolpath, np.array(sorted(left), dtype=np.int64)))
         tabs = cut_elsewhere(toolpath, contour, left, closing, _ON_EDGE_UM)
         contour = _behind_tabs(toolpath, contour, left, tabs)
         found = _passes_and_sections(toolpath, contour)
@@ -225,16 +224,17 @@ def _behind_tabs(
     return behind
 
 
-def _left_open(toolpath: Toolpath, wanted: Ints) -> dict[int, list[Section]]:
-    """Of the contours `wanted` those that leave a tab for a later one, with the one pass that each makes, by contour.
+def _left_open(toolpath: Toolpath, wanted: Ints) -> tuple[dict[int, list[Section]], Ints]:
+    """Of the contours `wanted` those that leave a tab for a later one, each with its one pass; and those that cut it.
 
-    Both come to the contour by the same lead.
+    Both come to the edge by the same lead.
     """
     bounds = runs(toolpath)
     first, past = bounds[wanted].T
     is_open = np.hypot(*(toolpath.end_um[past - 1] - toolpath.start_um[first]).T) > CLOSED_WITHIN_UM
     left = wanted[is_open]
     found: dict[int, list[Section]] = {}
+    closing: list[int] = []
     for at, closer in zip(left.tolist(), closers(toolpath, left).tolist(), strict=True):
         (low, high), (other, _) = bounds[at].tolist(), bounds[closer].tolist()
         lead = 0
@@ -242,7 +242,8 @@ def _left_open(toolpath: Toolpath, wanted: Ints) -> dict[int, list[Section]]:
             lead += 1
         if 0 < lead < high - low:
             found[at] = [Section(low + lead, high - 1, is_tab=False)]
-    return found
+            closing.append(closer)
+    return found, distinct(np.array(closing, dtype=np.int64))
 
 
 def _is_one_way(toolpath: Toolpath, row: int, other: int) -> bool:

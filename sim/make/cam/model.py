@@ -317,7 +317,7 @@ UNCUT: Final = (
 class CutPlan(NamedTuple):
     """All that is cut, in running order, with what it was made of.
 
-    `cuts` stand in the order in which the wire comes to them first, `visits` in the order in which it runs them.
+    `cuts` stand in the order of the figures, `visits` in that in which the wire runs over them.
     `is_added`: the controller adds the offset, and the program, in 4B, does not say it.
     """
 

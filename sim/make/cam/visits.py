@@ -38,7 +38,7 @@ class _Task(NamedTuple):
 
 
 class Visited(NamedTuple):
-    """Cuts in the order in which the wire comes to them first, and the visits in the order in which it runs them."""
+    """Cuts in the order of their figures, and the visits in that in which the wire runs over them."""
 
     cuts: tuple[FigureCut, ...]
     visits: tuple[Visit, ...]
@@ -113,7 +113,8 @@ def _waits(
     before = _ROUNDS[: _ROUNDS.index(task.kind)]
     if any((task.cut, kind) in left for kind in before):
         return True
-    return task.kind == _freed_by(cuts[task.cut]) and any(cut in inner[task.cut] for cut, _ in left)
+    frees = task.kind == _freed_by(cuts[task.cut])
+    return frees and any((each, kind) in left for each in inner[task.cut] for kind in _ROUNDS)
 
 
 def _within(cuts: Sequence[FigureCut]) -> list[set[int]]:
