@@ -13,8 +13,10 @@ from sim.cut.kerf.swept import Kerf
 from sim.cut.pieces.pieces import Piece, pieces_of, stock_of
 from sim.cut.regions import Region, difference, union_all
 
-GRAZED = 8
+GRAZED = 2
 """Places by which a moment may be off: where a kerf grazes another one, 0.05 µm of width are as much way; else 1."""
+GRAZED_BY_WALK = 8
+"""The same on walks at random, whose kerfs meet at flatter angles than those of squares."""
 
 
 class Place(NamedTuple):
@@ -67,7 +69,7 @@ def place_of(kerf: Kerf, piece: Piece) -> Place:
     return Place(contour, int(np.searchsorted(kerf.swept[contour].way.t_s, piece.freed.t_s)))
 
 
-def assert_free_as_the_whole_kerf_says(path: Toolpath) -> int:
+def assert_free_as_the_whole_kerf_says(path: Toolpath, most: int = GRAZED) -> int:
     """A piece that others part from the frame with more in a body comes free when it comes off that; gives how many."""
     kerf = kerf_along(path)
     sweeping, pieces = Sweeping(kerf), pieces_of(kerf, None, STEEL)
@@ -75,14 +77,15 @@ def assert_free_as_the_whole_kerf_says(path: Toolpath) -> int:
     points = [piece.outline_um.representative_point() for piece in pieces.freed]
     for piece, point in zip(pieces.freed, points, strict=True):
         moment, parted = place_of(kerf, piece), sweeping.parted_at(point, frame)
-        if parted.contour == moment.contour and abs(moment.at - parted.at) <= GRAZED:
+        if parted.contour == moment.contour and abs(moment.at - parted.at) <= most:
             grazed += abs(moment.at - parted.at) > 1
             continue
         loose += 1
         assert moment > parted
         before, after = (
-            sweeping.round_it(sweeping.up_to(moment._replace(at=moment.at + by)), point) for by in (-GRAZED, GRAZED)
+            sweeping.round_it(sweeping.up_to(moment._replace(at=moment.at + by)), point) for by in (-most, most)
         )
+        assert before.area - after.area > 1e4, "it loses more than the wire cuts on those places"
         assert shapely.contains(before, points).sum() > shapely.contains(after, points).sum(), "it came off others"
     assert grazed <= 2 + len(points) // 10
     return loose
@@ -103,4 +106,4 @@ def test_pieces_of_squares_that_cross_come_free_as_the_whole_kerf_says(seed: int
 @pytest.mark.alike(2)
 @pytest.mark.parametrize("seed", range(40))
 def test_pieces_of_walks_come_free_as_the_whole_kerf_says(seed: int) -> None:
-    assert_free_as_the_whole_kerf_says(walk(seed))
+    assert_free_as_the_whole_kerf_says(walk(seed), GRAZED_BY_WALK)

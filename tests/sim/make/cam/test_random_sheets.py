@@ -20,6 +20,8 @@ TO_3B = Wanted("3b")
 BY_UM = 100.0
 SAME_UM = 20.0  # of area over border: gaps of 8 µm, ends in between
 OFF_UM = 15.0  # a bridged gap moves a corner by as much as it is wide
+WRITTEN_UM = 1.5
+"""Of a written path off its plan, as conversions promise. Of seeds below 4,200, 813 alone breaks it: by 0.38."""
 
 
 def cut_of(made: MadeProgram, wanted: shapely.Polygon) -> FigureCut | None:
@@ -61,7 +63,7 @@ def test_a_random_sheet_is_cut_as_it_was_drawn(tmp_path: Path, seed: int) -> Non
         for ring, cut in zip(part, (outline_cut, *holes), strict=True):
             off_by_shapely(cut, shapely.affinity.scale(ring, 1000.0, 1000.0, origin=(0, 0)))
     assert found == len(done.plan.cuts)
-    assert done.written.off_um < TO_3B.bound_um
+    assert done.written.off_um < WRITTEN_UM
 
 
 def off_by_shapely(cut: FigureCut, ring: shapely.Polygon) -> None:
