@@ -117,17 +117,23 @@ class Near(NamedTuple):
     center: Place | None = None
 
 
-def line_to(path: LookedAt, row: int, begin: Place, aim: Aim) -> Near:
-    """Words of a line: to the whole µm about its end that lie least aside of it, and of what follows."""
+def line_to(path: LookedAt, row: int, begin: Place, aim: Aim, attempt: int) -> Near:
+    """Words of a line: to the whole µm about its end that lie least aside of it, and of what follows.
+
+    At each attempt others of them are tried: where the arcs behind it can end only 2 µm from each other, a line that
+    ends 1 µm elsewhere is what lets them meet a place.
+    """
     x, y = aim.end[0] - begin[0], aim.end[1] - begin[1]
     if aim.is_known:
         return Near(line_of((x, y)), 0.0, aim.stepped)
     (ax, ay), (bx, by) = path.across[row], path.across_next[row]
-    best, least = (x, y), math.inf
+    best, least, tried = (x, y), math.inf, 4 * row
     for i in (math.floor(x), math.ceil(x)):
         for j in (math.floor(y), math.ceil(y)):
             u, v = i - x, j - y
             cost = max(abs(ax * u + ay * v), abs(bx * u + by * v)) + _SLIDE * math.hypot(u, v)
+            tried += 1
+            cost += _UNLIKE * attempt * (tried * _TURN * attempt % 1.0)
             if cost < least:
                 best, least = (float(i), float(j)), cost
     return Near(line_of(best), 0.0, aim.stepped)

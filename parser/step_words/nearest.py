@@ -119,7 +119,7 @@ def _chained(path: LookedAt, rows: range, begin: _Begun, seen: _Visited, attempt
         if path.is_arc[row]:
             block, aside_um, off, center = arc_to(path, row, at, aim, attempt)
         else:
-            block, aside_um, off, center = line_to(path, row, at, aim)
+            block, aside_um, off, center = line_to(path, row, at, aim, attempt)
         at = aim.end if path.is_placed[row] else (at[0] + block.by_um[0], at[1] + block.by_um[1])
         if aim.is_known:
             missed = max(missed, math.dist(at, aim.end) / _CLOSED_UM)

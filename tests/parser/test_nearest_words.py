@@ -14,6 +14,8 @@ from parser.step_words.nearest import nearest_words
 from parser.step_words.words import moves, words_of_told_arcs
 
 _ASIDE_UM, _AHEAD_UM, _LINE_UM, _CLOSED_UM = 1.0, 2.25, 1.1, 0.5
+_ROUNDED_UM = 1.25
+"""Rows are told anew until none lies more than 1.2 µm aside; of 400 such contours three lie up to 1.22 µm aside."""
 _SHARES = np.linspace(0.0, 1.0, 33)
 
 
@@ -80,6 +82,24 @@ def filleted(rng: np.random.Generator, corners: int) -> Curves:
     nothing = np.full_like(center, np.nan)
     centers = np.stack([center, nothing], axis=1).reshape(-1, 2)
     return led(places, np.roll(places, -1, axis=0), centers, np.column_stack([turn, 0.0 * turn]).reshape(-1))
+
+
+def rounded(rng: np.random.Generator) -> Curves:
+    """A rectangle turned by 45° or so, whose corners are quarters of a turn, led to from a whole place and back.
+
+    The arcs end at 45° to both axes: about other centres in whole µm they end in steps of 2 µm.
+    """
+    turn = 0.25 * np.pi + rng.uniform(-0.05, 0.05)
+    x, y = rng.uniform(300.0, 3000.0, 2)
+    out = rng.uniform(200.0, 2000.0)
+    flat = [(-x, -y - out), (x, -y - out), (x + out, -y), (x + out, y), (x, y + out), (-x, y + out), (-x - out, y)]
+    places = np.array([*flat, (-x - out, -y)])
+    centers = np.full((8, 2), np.nan)
+    centers[1::2] = [(x, -y), (x, y), (-x, y), (-x, -y)]
+    turned = np.array([[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]])
+    at = 20e3 + rng.uniform(0.0, 1.0, 2)
+    sweep = np.tile([0.0, 0.5 * np.pi], 4)
+    return led(places @ turned + at, np.roll(places, -1, axis=0) @ turned + at, centers @ turned + at, sweep)
 
 
 def led(start: Floats, end: Floats, center: Floats, sweep: Floats) -> Curves:
@@ -232,6 +252,16 @@ def test_a_path_that_comes_to_a_place_again_ends_where_it_was() -> None:
     ends = np.concatenate([path.start_um[:1], told(path).end_um])
     n = len(there)
     assert np.hypot(*(ends[n + 1 :] - ends[n - 1 :: -1]).T).max() <= 0.6
+
+
+@pytest.mark.alike(1)
+@pytest.mark.parametrize("seed", range(40))
+def test_a_contour_closes_whose_arcs_can_end_only_two_um_from_each_other(seed: int) -> None:
+    """Where lines took no other whole µm than the nearest, one in six missed by 0.9 µm or lay up to 2.1 µm aside."""
+    path = rounded(np.random.default_rng(seed))
+    words = told(path)
+    assert np.hypot(*(words.end_um[-2] - words.end_um[0])) <= _CLOSED_UM
+    assert off_um(path, words)[1:-1].max() <= _ROUNDED_UM
 
 
 def test_a_row_that_is_placed_ends_at_the_very_place() -> None:
