@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from threading import Lock
 from typing import Final
 
 from parser.files import read_bytes
@@ -13,6 +14,8 @@ from parser.findings.errors import DrawingError
 _RELEASE: Final = "R2018"
 _NO_SCREEN: Final = {"DISPLAY": ":0", "QT_QPA_PLATFORM": "offscreen"}
 """What a program with windows needs where there is no screen, as on a server."""
+_ONE_AT_A_TIME: Final = Lock()
+"""The environment is that of all threads, and the page's server reads drawings in several of them."""
 
 
 def dxf_of_dwg(path: Path, data: bytes) -> bytes:
@@ -25,7 +28,7 @@ def dxf_of_dwg(path: Path, data: bytes) -> bytes:
         source, made = Path(folder) / "drawing.dwg", Path(folder) / "drawing.dxf"
         source.write_bytes(data)
         try:
-            with _with_a_screen():
+            with _ONE_AT_A_TIME, _with_a_screen():
                 odafc.convert(source, made, version=_RELEASE, replace=True)  # type: ignore[attr-defined]
             return read_bytes(made)
         except Exception as error:  # a program of others ends in any error

@@ -28,6 +28,7 @@ _FONTS: Final = {2: "DASHED", 3: "PHANTOM", 4: "CENTER", 5: "DOT"}
 _UNPLACED: Final = {"01", "03"}  # physically dependent: what others are made of
 _DEEPEST: Final = 20
 _SAME: Final = 1e-9
+_FLAT: Final = 1e-6  # of the file's unit: CAD systems write places of one plane with as much rounding
 _NAMES: Final = {128: "surface", 144: "trimmed surface", 186: "solid", 212: "note", 106: "points", 104: "conic"}
 _HOLLERITH: Final = re.compile(r"\s*(\d+)H")
 
@@ -244,7 +245,7 @@ class _Pen:
 
     def _line(self, entry: _Entry, frame: _Frame, look: dict[str, Any]) -> None:
         x1, y1, z1, x2, y2, z2 = (_number(text) for text in entry.values[:6])
-        if entry.form or abs(z2 - z1) > _SAME:
+        if entry.form or abs(z2 - z1) > _FLAT:
             raise _NotReadError  # without an end, or not of the plane
         self.sheet.line(frame.at(complex(x1, y1)), frame.at(complex(x2, y2)), **look)
 
@@ -290,7 +291,7 @@ class _Pen:
         kind, number = int(entry.values[0]), int(entry.values[1])
         step, begin = {1: (2, 3), 2: (3, 2), 3: (6, 2)}[kind]
         rows = np.array([_number(text) for text in entry.values[begin : begin + step * number]]).reshape(number, step)
-        if step > 2 and np.ptp(rows[:, 2]) > _SAME:
+        if step > 2 and np.ptp(rows[:, 2]) > _FLAT:
             raise _NotReadError
         places = [frame.at(complex(x, y)) for x, y in rows[:, :2].tolist()]
         self.sheet.way(places, [0.0] * (number - 1), **look)
@@ -306,7 +307,7 @@ class _Pen:
         for at in range(number):
             begin = 5 + number + 12 * at
             rows = np.array([_number(text) for text in entry.values[begin : begin + 12]]).reshape(3, 4)
-            if np.abs(rows[2, 1:]).max() > _SAME:
+            if np.abs(rows[2, 1:]).max() > _FLAT:
                 raise _NotReadError
             a, b, c, d = (complex(x, y) for x, y in (rows[:2] * (knots[at + 1] - knots[at]) ** np.arange(4)).T.tolist())
             places = [a, a + b / 3.0, a + (2.0 * b + c) / 3.0, a + b + c + d]
@@ -323,7 +324,7 @@ class _Pen:
         weights, values = values[:number], values[number:]
         places, (low, high) = np.array(values[: 3 * number]).reshape(number, 3), values[3 * number : 3 * number + 2]
         slack = 1e-6 * (knots[-1] - knots[0])
-        if np.ptp(places[:, 2]) > _SAME or abs(low - knots[degree]) > slack or abs(high - knots[number]) > slack:
+        if np.ptp(places[:, 2]) > _FLAT or abs(low - knots[degree]) > slack or abs(high - knots[number]) > slack:
             raise _NotReadError  # not of the plane, or a part of it
         self.sheet.spline(degree, knots, weights, [frame.at(complex(x, y)) for x, y in places[:, :2].tolist()], **look)
 

@@ -139,6 +139,16 @@ def test_what_is_hidden_noted_tilted_or_unknown_is_told_and_not_read(tmp_path: P
     assert note.values == {"entities": "1 × entity 100, 1 × entity 110, 1 × hidden, 1 × note, 1 × surface"}
 
 
+def test_heights_that_differ_by_rounding_alone_are_one_plane(tmp_path: Path) -> None:
+    """CAD systems write a plane's z as 1E-7 or 0, as their arithmetic has it."""
+    corners = [(0.0, 0.0), (30.0, 0.0), (30.0, 30.0), (0.0, 30.0)]
+    sides = zip(corners, [*corners[1:], corners[0]], strict=True)
+    lines = [Entity(110, (*start, 0.0, *end, 1e-7)) for start, end in sides]
+    drawing = read(tmp_path, iges(lines))
+    assert lengths_mm(drawing) == pytest.approx([120.0])
+    assert not drawing.notes
+
+
 def test_centre_lines_are_left_out_and_an_unknown_unit_is_told(tmp_path: Path) -> None:
     drawing = read(tmp_path, iges([*SQUARE, Entity(110, line(-5.0, 10.0, 45.0, 10.0), font=4)], "3,4HWIRE"))
     assert [left.why for left in drawing.left_out] == ["broken-line"]
