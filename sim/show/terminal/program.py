@@ -234,7 +234,7 @@ def _same_passes(plan: CutPlan, words: Words) -> Iterator[str]:
         numbers = [cut.figure.number for cut in slugs if bool(cut.cut_off) is is_there]
         if numbers:
             yield words(f"program.{key}", figures=_numbers(numbers), length=f"{mm(making.slug_tab_um):g}")
-    if making.in_rounds:
+    if making.in_rounds and len(plan.visits) > len(plan.cuts):
         yield words("program.in-rounds", contours=f"{len(plan.of_contour):,}")
 
 
