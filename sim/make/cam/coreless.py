@@ -15,10 +15,10 @@ from controller.offset.chain import lines_between
 from parser.findings.catalogue import Remark
 from parser.geometry.along import outline
 from parser.geometry.curves import Curves, Floats, curves_between, joined
-from sim.make.cam.leads import line
+from sim.make.cam.leads import line, run_back
 from sim.make.cam.model import CannotCutError, CutPlan, FigureCut, PassCut, Refusal
 from sim.make.cam.offset_path import SHORT_UM
-from sim.make.cam.passes import around, figure_cut, parted, run_back
+from sim.make.cam.passes import around, figure_cut, parted
 from sim.measure.compare.rings import polygon
 from sim.setup.making import Making
 

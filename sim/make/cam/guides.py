@@ -14,8 +14,10 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from controller.offset.chain import lines_between
+from controller.offset.shifted import Side
 from parser.geometry.along import Directions, directions, to_left
 from parser.geometry.curves import Bools, Curves, Floats, curves_between, joined
+from sim.make.cam.leads import run_back
 from sim.make.cam.model import FigureCut, PassCut
 
 CORNER_SHARE: Final = 0.95
@@ -67,13 +69,45 @@ def guided(cut: FigureCut, lag_um: float) -> FigureCut:
         led.append(made)
         if at < open_passes:
             before = _Led(way, made)
-    cut_off = tuple(_guided(each, lag_um, before, is_past=not _returns(each)) for each in cut.cut_off)
+    cut_off = tuple(_over_tab(each, lag_um, before, cut) for each in cut.cut_off)
     return cut._replace(passes=tuple(led), cut_off=cut_off)
+
+
+def _over_tab(way: PassCut, lag_um: float, before: _Led | None, cut: FigureCut) -> PassCut:
+    """The cut-off as the guides run it: past its end, and where it goes there and back, back as they came.
+
+    Back they run past each corner on its other side, and would cross their way there. Where all corners turn to the
+    part, they may go back as they came: the wire is dragged into the waste.
+    """
+    if not _returns(way):
+        return _guided(way, lag_um, before, is_past=True)
+    there = way._replace(along=way.along.picked(slice(0, len(way.along) // 2)), out=way.out.picked(slice(0)))
+    if not _turns_to_part(there, cut):
+        return _guided(way, lag_um, before, is_past=False)
+    led = _guided(there, lag_um, before, is_past=True)
+    along = joined([led.along, run_back(led.along)])
+    return led._replace(along=along, out=_lead(way.out, along.end_um[-1], way.out.end_um[-1]))
+
+
+def before_corner_um(way: Curves, lag_um: float) -> float:
+    """How far along a way it may be left by guides that run past its end by the lag, and meet no corner of it."""
+    corner = np.flatnonzero(_turn(directions(way)) > _CORNER_RAD)
+    length_um = float(way.length_um[: int(corner[0]) + 1 if len(corner) else None].sum())
+    return max(length_um - lag_um, 0.0)
 
 
 def _returns(way: PassCut) -> bool:
     """Whether a pass ends where it begins."""
     return bool(np.hypot(*(way.along.end_um[-1] - way.along.start_um[0])) <= _SAME_UM)
+
+
+def _turns_to_part(way: PassCut, cut: FigureCut) -> bool:
+    """Whether every corner of a pass turns to the side of the part."""
+    heading = directions(way.along)
+    before, behind = heading.arriving[:-1], heading.leaving[1:]
+    to_left = before[:, 0] * behind[:, 1] - before[:, 1] * behind[:, 0]
+    part_is_left = (cut.side == Side.LEFT) == way.is_back
+    return bool(((to_left if part_is_left else -to_left) >= -_CORNER_RAD).all())
 
 
 def _guided(way: PassCut, lag_um: float, before: _Led | None, *, is_past: bool) -> PassCut:

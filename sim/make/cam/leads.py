@@ -156,5 +156,10 @@ def lead_out(thread: Thread, along: Curves) -> Curves:
     end, place = along.end_um[-1], np.array(thread.place_um, dtype=np.float64)
     if np.hypot(*(end - along.start_um[0])) > _SAME_PLACE_UM:
         return line(end, place)
-    into = lead_in(thread, along)
-    return running(into, np.arange(len(into))[::-1], np.ones(len(into), dtype=np.bool_))
+    return run_back(lead_in(thread, along))
+
+
+def run_back(way: Curves) -> Curves:
+    """A way run from its end to its start."""
+    rows = np.arange(len(way))[::-1]
+    return running(way, rows, np.ones(len(way), dtype=np.bool_))

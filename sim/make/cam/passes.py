@@ -23,13 +23,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.drawing.model import running
 from parser.geometry.along import along_um, places_at
 from parser.geometry.curves import Curves, curves_between, joined, total_before
 from parser.geometry.distance import distance_to_curves
 from parser.toolpath import Point
-from sim.make.cam.guides import OVERLAP_LAGS
-from sim.make.cam.leads import lead_in, lead_out
+from sim.make.cam.guides import OVERLAP_LAGS, before_corner_um
+from sim.make.cam.leads import lead_in, lead_out, run_back
 from sim.make.cam.model import CannotCutError, Figure, FigureCut, PassCut, Refusal, Thread, way_of
 from sim.make.cam.offset_path import SHORT_UM, offset_path
 from sim.setup.making import Making
@@ -67,12 +66,6 @@ def parted(way: Curves, length_um: float) -> tuple[Curves, Curves]:
     row = int(np.searchsorted(before, length_um)) - 1
     early, late = _halves(way.picked(slice(row, row + 1)), length_um - float(before[row]))
     return joined([way.picked(slice(row)), early]), joined([late, way.picked(slice(row + 1, None))])
-
-
-def run_back(way: Curves) -> Curves:
-    """A way run from its end to its start."""
-    rows = np.arange(len(way))[::-1]
-    return running(way, rows, np.ones(len(way), dtype=np.bool_))
 
 
 def _circle_at(circle: Curves, place_um: Point) -> Curves:
@@ -203,13 +196,18 @@ def slug_passes(rounds: Rounds, making: Making) -> tuple[tuple[PassCut, ...], tu
 
 
 def cut_off_anew(cut: FigureCut, making: Making) -> PassCut:
-    """The cut-off from the thread point: back over the tab, past the end of the open stretch, and back the same way."""
+    """The cut-off from the thread point: back over the tab, past the end of the open stretch, and back the same way.
+
+    It ends before the next corner: the first pass has cut that already, and on to the other side guides of a wire that
+    lags would run past it into the part.
+    """
     by_um = cut.cut_off[0].by_um
     closed = around(cut.figure, cut.thread, by_um, making)
     ahead = closed if cut.is_ccw else run_back(closed)
     rounds = Rounds(cut.figure, cut.thread, cut.is_ccw, (by_um,), (ahead,))
     (way,) = _parted_at_tab(rounds, making.slug_tab_um if cut.figure.runs_inside else making.tab_um)
-    over, _ = parted(run_back(way.open), _overcut_um(making))
+    open_ = run_back(way.open)
+    over, _ = parted(open_, min(_overcut_um(making), before_corner_um(open_, making.lag_um)))
     there = joined([run_back(way.tab), over])
     into = cut.passes[0].into if cut.figure.runs_inside else lead_in(cut.thread, there)
     return PassCut(by_um, True, into, joined([there, run_back(there)]), run_back(into))

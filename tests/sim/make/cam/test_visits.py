@@ -1,6 +1,6 @@
 """In rounds over all figures, nothing falls with work in it that is still to be done, and the program is proved."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +16,7 @@ from sim.make.cam.maker import MadeProgram, made_program
 from sim.make.cam.model import CutPlan
 from sim.make.wanted import Wanted
 from sim.measure.compare.rings import polygon
-from sim.setup.making import LayerWish, Making
+from sim.setup.making import DirectionWish, LayerWish, Making
 
 TRIMMED = (130.0, 100.0)
 TO_3B = Wanted("3b")
@@ -165,3 +165,43 @@ def test_ranks_keep_their_order_within_a_round(tmp_path: Path) -> None:
     plan = plan_of(drawn(tmp_path, draw), making)
     order = [plan.cuts[visit.cut].figure.layer for visit in plan.visits]
     assert order == ["L3", "L2", "L1", "L0"] * 2
+
+
+def hexagons(space: Modelspace) -> None:
+    """Punches beside each other, of which a tab of 1.5 or 2.5 mm, and an overcut behind it, go round a corner."""
+    for at, (radius, turn) in enumerate([(6.0, 0.17), (4.5, 0.4), (3.0, 0.9)]):
+        angle = turn + np.arange(6) * np.pi / 3.0
+        places = np.column_stack([14.0 * at + radius * np.cos(angle), radius * np.sin(angle)])
+        space.add_lwpolyline(places.tolist(), close=True)
+
+
+def plate_with_square_holes(space: Modelspace) -> None:
+    """An overcut of 300 µm behind a tab of 1.5 mm goes round a corner of each hole, which is on no axis."""
+    space.add_lwpolyline([(-10, -10), (10, -10), (10, 10), (-10, 10)], close=True)
+    for x in (-5.0, 5.0):
+        angle = 0.79 + np.arange(4) * np.pi / 2.0
+        places = np.column_stack([x + 2.3 * np.cos(angle), 2.3 * np.sin(angle)])
+        space.add_lwpolyline(places.tolist(), close=True)
+
+
+@pytest.mark.parametrize(
+    ("shapes", "passes_um", "direction"), [(hexagons, TRIMMED, "cw"), (plate_with_square_holes, (), "ccw")]
+)
+def test_a_wire_that_lags_comes_back_from_a_tab_round_corners_without_crossing_its_way(
+    tmp_path: Path, shapes: Callable[[Modelspace], None], passes_um: tuple[float, ...], direction: DirectionWish
+) -> None:
+    """Its guides ran past each corner on the other side as they came back: 3B307, and 3B321 by up to 19 µm."""
+    making = Making(
+        passes_um=passes_um,
+        direction=direction,
+        rough_first=True,
+        tab_um=2500.0,
+        slug_tab_um=1500.0,
+        overcut_um=300.0,
+        lag_um=20.0,
+    )
+    done = made_program(drawn(tmp_path, shapes), making, TO_3B, plain_scenario())
+    assert isinstance(done, MadeProgram)
+    assert done.proof is not None
+    assert [finding.code for finding in done.proof.counting] == []
+    assert done.is_proved
