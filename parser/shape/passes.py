@@ -115,6 +115,24 @@ def leads_of(passes: Passes, toolpath: Toolpath) -> Bools:
     return np.asarray((passes.of_row < 0) & ~toolpath.is_jump)
 
 
+def pass_numbers(toolpath: Toolpath, passes: Passes) -> Ints:
+    """(n,) which cut over its edge each row is of, from 1; over a tab they are counted anew, as it is cut in the solid.
+
+    A lead is of the pass behind it in its contour, else of the one before it; where there is none it is of a first one.
+    """
+    counted: dict[tuple[int, bool], int] = {}
+    of_pass = np.ones(len(passes.passes) + 1, dtype=np.int64)
+    for at, pass_ in enumerate(passes.passes):
+        counted[pass_.edge, pass_.is_tab] = of_pass[at] = counted.get((pass_.edge, pass_.is_tab), 0) + 1
+    number, known = of_pass[passes.of_row], passes.of_row >= 0
+    for first, past in runs(toolpath).tolist():
+        at = np.flatnonzero(known[first:past]) + first
+        if len(at):
+            behind = np.minimum(np.searchsorted(at, np.arange(first, past)), len(at) - 1)
+            number[first:past] = number[at[behind]]
+    return number
+
+
 def with_edges(passes: Sequence[Pass]) -> tuple[Pass, ...]:
     """The passes of a toolpath, each with the least shift over its edge, or over its tab."""
     least: dict[tuple[int, bool], float] = {}

@@ -31,7 +31,7 @@ from sim.setup.part import (
     Offset,
     OffsetPass,
 )
-from sim.setup.settable import INTERPOLATOR, SETTABLE, with_settings
+from sim.setup.settable import INTERPOLATOR, SETTABLE
 from sim.setup.toml.keys import Key
 from sim.setup.toml.reader import number
 from sim.show.terminal.finding import finding_lines
@@ -59,6 +59,7 @@ COMPARISON: Final = (LAYER, TOLERANCE, FIT, CORNERS)
 _OPTIONS = (
     *READ_WITH,
     click.option("--machine", metavar="NAME|FILE", shell_complete=offer_machines),
+    click.option("--technology", type=FilePath(path_type=Path, dir_okay=False), metavar="FILE.toml"),
     *setting_options([INTERPOLATOR, *SETTABLE.values()]),
     click.option(
         "--offset",
@@ -105,6 +106,7 @@ class Overrides(NamedTuple):
     dialect: "ChosenDialect | None" = None
     unit: str | None = None
     machine: str | None = None
+    technology: Path | None = None
     settings: Mapping[str, Any] = MappingProxyType({})
     interpolator: str | None = None
     engine: "TableEngine | None" = None
@@ -124,6 +126,7 @@ def overridden(path: Path, options: Overrides) -> "Scenario":
     """Scenario of the path with the options of the command line in place of its own values."""
     from sim.setup import scenario as scenarios
     from sim.setup.machine.machine import load_machine
+    from sim.setup.technology import load_technology
 
     offsets = offsets_of(options.offset)
     scenario = read_with(scenarios.load_scenario(path), options.dialect, options.unit, offsets.registers)
@@ -132,8 +135,9 @@ def overridden(path: Path, options: Overrides) -> "Scenario":
     if options.engine is not None:
         scenario = replace(scenario, machine=scenario.machine._replace(engine=options.engine))
     given = of_options(SETTABLE.values(), options.settings)
+    technology = None if options.technology is None else load_technology(options.technology)
     scenario = replace(
-        with_settings(scenario, given),
+        scenarios.with_values(scenario, given, technology),
         offset=_offset(scenario.offset, offsets.plain, options.side),
         drawing=_drawing(scenario.drawing, options),
     )

@@ -11,6 +11,7 @@ from sim.cut.pieces.pieces import Material, Pieces, pieces_of
 from sim.cut.play import Play, plays_of
 from sim.cut.regions import cut_by_blocks
 from sim.cut.sizes import Sizes, sizes_of
+from sim.cut.wire_rows import wire_rows
 from sim.setup.scenario import Scenario
 from sim.table.trace import Trace
 
@@ -44,7 +45,8 @@ class Remains:
     def sizes(self) -> Sizes:
         """Sizes of what is kept, as cut and nominal; RegionError where they could not be worked out."""
         with cut_by_blocks(1, len(self.toolpath)):
-            return sizes_of(self.toolpath, self.kerf, self.pieces, self.scenario.work_um)
+            spread_um = wire_rows(self.toolpath, self.scenario).spread_um
+            return sizes_of(self.toolpath, self.kerf, self.pieces, self.scenario.work_um, spread_um)
 
     def measured(self) -> "Remains":
         """The same, its plays and its sizes worked out; RegionError where they could not be."""
@@ -56,7 +58,7 @@ def remains_of(program: Program, trace: Trace, contours: tuple[Contour, ...], sc
     """Kerf and pieces by where the wire really was; RegionError where they could not be worked out."""
     toolpath = program.toolpath
     with cut_by_blocks(1, len(toolpath)):
-        kerf = kerf_of(toolpath, trace, contours, scenario.wire.reach_um)
+        kerf = kerf_of(toolpath, trace, contours, wire_rows(toolpath, scenario).reach_um)
         return Remains(toolpath, scenario, kerf, _pieces(kerf, toolpath, scenario))
 
 
@@ -70,7 +72,7 @@ def pieces_left(
     if remains is not None:
         return remains.pieces
     with cut_by_blocks(1, len(program.toolpath)):
-        kerf = kerf_of(program.toolpath, trace, contours, scenario.wire.reach_um)
+        kerf = kerf_of(program.toolpath, trace, contours, wire_rows(program.toolpath, scenario).reach_um)
         return _pieces(kerf, program.toolpath, scenario)
 
 

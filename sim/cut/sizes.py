@@ -46,18 +46,18 @@ def nominal_parts(
     stock_um: shapely.Polygon,
     shapes: tuple[KeptShape, ...],
     kept_edges: KeptEdges,
-    offset_um: float,
+    wire_um: Floats,
 ) -> NominalParts:
     """Parts that the ideal path leaves of a stock, true to shapes and to the nominal places of their kept edges.
 
     They are worked out in boxes round the shapes. What is closed in within its box is the same in all of the stock; if
     a partner is not, or is not found, all of the stock is cut.
     """
-    boxes, cut = _boxes_round(shapes, kept_edges, _BESIDE * offset_um), ~toolpath.is_jump
-    near = NominalParts(parted(stock_um, nominal_region(toolpath, cut, offset_um, boxes)))
+    boxes, cut = _boxes_round(shapes, kept_edges, _BESIDE * float(wire_um.max())), ~toolpath.is_jump
+    near = NominalParts(parted(stock_um, nominal_region(toolpath, cut, wire_um, boxes)))
     if _all_within(((near.partner(shape) for shape in shapes)), boxes):
         return near
-    return NominalParts(parted(stock_um, nominal_region(toolpath, cut, offset_um)))
+    return NominalParts(parted(stock_um, nominal_region(toolpath, cut, wire_um)))
 
 
 def _boxes_round(shapes: tuple[KeptShape, ...], kept_edges: KeptEdges, beside_um: float) -> Regions:
@@ -184,7 +184,7 @@ class BoxSize(NamedTuple):
     """Box round a part, round a hole in it, or round an opening in the frame that a slug fell out of.
 
     `piece` is the index of the part or the slug, None where none fell; `cut_um` and `nominal_um` are widths along X
-    and Y.
+    and Y, `least_um` and `most_um` between which these lie as cut, as the gap of the last pass has its interval.
     """
 
     what: Literal["part", "hole", "opening"]
@@ -192,12 +192,15 @@ class BoxSize(NamedTuple):
     center_um: Point
     cut_um: Point
     nominal_um: Point
+    least_um: Point
+    most_um: Point
 
 
 class RadiusSize(NamedTuple):
     """Radius of an arc's kept edge, inside of a hole or outside of a boss, with block number and centre as cut.
 
-    `form_um` is the width of the ring that holds the edge.
+    `form_um` is the width of the ring that holds the edge. Between `least_um` and `most_um` the radius lies as the gap
+    has its interval, and as far as the form of so short an arc may feign another radius.
     """
 
     what: Literal["hole", "boss"]
@@ -206,15 +209,22 @@ class RadiusSize(NamedTuple):
     cut_um: float
     nominal_um: float
     form_um: float
+    least_um: float
+    most_um: float
 
 
 class DistanceSize(NamedTuple):
-    """Distance of two parallel straight edges, with material or a slot between them, and their block numbers."""
+    """Distance of two parallel straight edges, with material or a slot between them, and their block numbers.
+
+    Between `least_um` and `most_um` it lies as the gaps of both have their intervals.
+    """
 
     what: Literal["material", "slot"]
     blocks: tuple[int, int]
     cut_um: float
     nominal_um: float
+    least_um: float
+    most_um: float
 
 
 class Sizes(NamedTuple):
@@ -225,28 +235,41 @@ class Sizes(NamedTuple):
     distances: tuple[DistanceSize, ...]
 
 
-def sizes_of(toolpath: Toolpath, kerf: Kerf, pieces: Pieces, work_um: Outline | None) -> Sizes:
-    """Sizes of parts and openings; what the ideal path would not leave has no nominal size and is left out."""
+def sizes_of(toolpath: Toolpath, kerf: Kerf, pieces: Pieces, work_um: Outline | None, spread_um: Floats) -> Sizes:
+    """Sizes of parts and openings; what the ideal path would not leave has no nominal size and is left out.
+
+    `spread_um` (n, 2) is by how much the kerf of each row may reach less far, below 0, and farther.
+    """
     shapes = kept_shapes(pieces)
     if not shapes:
         return Sizes((), (), ())
     edges = kept_edges(kerf, shapes)
-    nominal = nominal_parts(toolpath, stock_of(kerf, work_um), shapes, edges, kerf.offset_um)
+    nominal = nominal_parts(toolpath, stock_of(kerf, work_um), shapes, edges, kerf.reach_um)
     edges = edges.picked(lie_on(shapely.get_rings(nominal.parts_um).tolist(), edges.nominal_um))
     return Sizes(
-        tuple(_boxes(shapes, nominal)),
-        tuple(_radii(toolpath, kerf, edges)),
-        tuple(_distances(edges, kept_lines(toolpath, kerf.edges, edges))),
+        tuple(_boxes(shapes, nominal, _widest(edges, spread_um, len(shapes)))),
+        tuple(_radii(toolpath, kerf, edges, spread_um)),
+        tuple(_distances(edges, kept_lines(toolpath, kerf.edges, edges), spread_um)),
     )
 
 
-def _boxes(shapes: tuple[KeptShape, ...], nominal: NominalParts) -> Iterator[BoxSize]:
-    """Boxes of shapes with a nominal partner."""
-    for shape in shapes:
+def _widest(edges: KeptEdges, spread_um: Floats, shapes: int) -> Floats:
+    """By how much the kerfs round each shape (k, 2) may reach less far, and farther, where they may most."""
+    widest = np.zeros((shapes, 2))
+    np.minimum.at(widest[:, 0], edges.shape, spread_um[edges.row, 0])
+    np.maximum.at(widest[:, 1], edges.shape, spread_um[edges.row, 1])
+    return widest
+
+
+def _boxes(shapes: tuple[KeptShape, ...], nominal: NominalParts, spread_um: Floats) -> Iterator[BoxSize]:
+    """Boxes of shapes with a nominal partner; `spread_um` (k, 2) is of the kerfs round each."""
+    for shape, (less_um, more_um) in zip(shapes, spread_um.tolist(), strict=True):
         partner = nominal.partner(shape)
         if partner is not None:
             center, cut = _box(shape.outline_um)
-            yield BoxSize(shape.what, shape.piece, center, cut, _box(partner)[1])
+            low, high = (-2.0 * more_um, -2.0 * less_um) if shape.what == "part" else (2.0 * less_um, 2.0 * more_um)
+            least, most = (Point(cut.x + by, cut.y + by) for by in (low, high))
+            yield BoxSize(shape.what, shape.piece, center, cut, _box(partner)[1], least, most)
 
 
 def _box(outline: shapely.Polygon) -> tuple[Point, Point]:
@@ -255,10 +278,10 @@ def _box(outline: shapely.Polygon) -> tuple[Point, Point]:
     return Point((low_x + high_x) / 2.0, (low_y + high_y) / 2.0), Point(high_x - low_x, high_y - low_y)
 
 
-def _radii(toolpath: Toolpath, kerf: Kerf, edges: KeptEdges) -> Iterator[RadiusSize]:
+def _radii(toolpath: Toolpath, kerf: Kerf, edges: KeptEdges, spread_um: Floats) -> Iterator[RadiusSize]:
     """Radii of 10 µm and more, of the arcs with 30° and more of a kept edge."""
     boss = np.sign(toolpath.sweep_rad[edges.row]) == edges.side
-    nominal = toolpath.radius_um[edges.row] + np.where(boss, -kerf.offset_um, kerf.offset_um)
+    nominal = toolpath.radius_um[edges.row] + np.where(boss, -1.0, 1.0) * kerf.reach_um[edges.row]
     first = runs_of(edges.row, edges.side)
     number = np.diff(first, append=len(edges.row))
     swept = np.abs(toolpath.sweep_rad[edges.row[first]]) * _shares(kerf.edges, edges, first, number)
@@ -268,10 +291,14 @@ def _radii(toolpath: Toolpath, kerf: Kerf, edges: KeptEdges) -> Iterator[RadiusS
     at, first, number = np.flatnonzero(np.repeat(wanted, number)), first[wanted], number[wanted]
     of = np.repeat(np.arange(len(first)), number)
     fits = fitted_circles(edges.cut_um[at], of, toolpath.center_um[edges.row[first]])
-    for center, radius, form, edge in zip(fits.center_um, fits.radius_um, fits.form_um, first.tolist(), strict=True):
+    columns = (fits.center_um, *(column.tolist() for column in fits[1:]), first.tolist())
+    for center, radius, form, within, edge in zip(*columns, strict=True):
         what: Literal["hole", "boss"] = "boss" if boss[edge] else "hole"
+        less, more = spread_um[edges.row[edge]].tolist()
+        low, high = (-more, -less) if boss[edge] else (less, more)
+        least, most = radius + low - within, radius + high + within
         block = int(edges.row[edge]) + 1
-        yield RadiusSize(what, block, Point(*center.tolist()), float(radius), float(nominal[edge]), float(form))
+        yield RadiusSize(what, block, Point(*center.tolist()), radius, float(nominal[edge]), form, least, most)
 
 
 def _shares(edges: Edges, edges_of_part: KeptEdges, first: Ints, number: Ints) -> Floats:
@@ -282,7 +309,7 @@ def _shares(edges: Edges, edges_of_part: KeptEdges, first: Ints, number: Ints) -
     return shares
 
 
-def _distances(edges: KeptEdges, lines: KeptLines) -> Iterator[DistanceSize]:
+def _distances(edges: KeptEdges, lines: KeptLines, spread_um: Floats) -> Iterator[DistanceSize]:
     pairs = facing_pairs(lines)
     longest = np.sort(np.argsort(pairs.from_um - pairs.to_um, kind="stable")[:_MOST_PAIRS])
     for this, other, low, high in zip(*(column[longest].tolist() for column in pairs), strict=True):
@@ -296,8 +323,11 @@ def _distances(edges: KeptEdges, lines: KeptLines) -> Iterator[DistanceSize]:
                 for first, last in ((spans[0].cut_um, spans[1].cut_um), (spans[0].nominal_um, spans[1].nominal_um))
             )
             what: Literal["material", "slot"] = "material" if nominal > 0.0 else "slot"
-            blocks = (int(lines.row[this]) + 1, int(lines.row[other]) + 1)
-            yield DistanceSize(what, blocks, abs(cut), abs(nominal))
+            rows = [int(lines.row[this]), int(lines.row[other])]
+            less, more = spread_um[rows].sum(axis=0).tolist()
+            least, most = (-more, -less) if what == "material" else (less, more)
+            blocks = (rows[0] + 1, rows[1] + 1)
+            yield DistanceSize(what, blocks, abs(cut), abs(nominal), abs(cut) + least, abs(cut) + most)
 
 
 def _within(along_um: Floats, low_um: float, high_um: float) -> Bools:
@@ -306,17 +336,29 @@ def _within(along_um: Floats, low_um: float, high_um: float) -> Bools:
 
 
 class Fits(NamedTuple):
-    """Circles (k,): centres (k, 2), radii, and the width of the ring that holds the places of each, all µm."""
+    """Circles of k arcs, all µm.
+
+    Attributes
+    ----------
+    center_um, radius_um
+        (k, 2) and (k,).
+    form_um
+        (k,) width of the ring that holds the places of each.
+    within_um
+        (k,) by how much half of that width, in its worst course along the arc, may change the radius.
+    """
 
     center_um: Floats
     radius_um: Floats
     form_um: Floats
+    within_um: Floats
 
 
 def fitted_circles(place_um: Floats, of: Ints, center_um: Floats) -> Fits:
     """Circles that lie nearest to the places (m, 2) of each arc, by the sum of squares of the distances.
 
-    `of` (m,) is the index of each place's arc; it never falls, and each of the k arcs has a place. `center_um` (k, 2)
+    A deviation d(φ) of ±f moves the radius by Σ a(φ) d(φ) with weights a of the least squares: by Σ |a| f at most. `of`
+    (m,) is the index of each place's arc; it never falls, and each of the k arcs has a place. `center_um` (k, 2)
     are first guesses of the centres. Gauss-Newton on the distances from the circle: r ≈ R + x cos φ + y sin φ.
     """
     first, center = np.flatnonzero(np.diff(of, prepend=-1)), center_um
@@ -330,4 +372,6 @@ def fitted_circles(place_um: Floats, of: Ints, center_um: Floats) -> Fits:
         center = center + solved[:, 1:]
     distance = np.hypot(*(place_um - center[of]).T)
     form = np.maximum.reduceat(distance, first) - np.minimum.reduceat(distance, first)
-    return Fits(center, np.add.reduceat(distance, first) / np.diff(first, append=len(of)), form)
+    weight = (np.linalg.inv(normal)[:, 0][of] * columns).sum(axis=1)
+    within = 0.5 * form * np.add.reduceat(np.abs(weight), first)
+    return Fits(center, np.add.reduceat(distance, first) / np.diff(first, append=len(of)), form, within)

@@ -49,16 +49,21 @@ class _Moves(NamedTuple):
         return _Moves(self.length_um[:, stretches], self.toward[:, stretches], self.cuts[:, stretches])
 
 
-def bowed(trace: Trace, toolpath: Toolpath, lag_um: float) -> Trace:
-    """The trace with the place of a wire that bows back by up to `lag_um`; the table is where the guides are.
+def bowed(trace: Trace, toolpath: Toolpath, lag_um: Floats) -> Trace:
+    """The trace with the place of a wire that bows back by up to `lag_um` (n,), row by row of the toolpath.
+
+    The table is where the guides are. Rows of a pass with another lag are those of a wire that has it all the way.
 
     At the start of a cut the wire is straight. On jumps there is no discharge, and it goes with its guides. Between
     two samples the guides move straight. For that the wire's way is exact, and so it depends on no step size. The
     guides' way has steps of 1 µm, and a lag much longer than that smooths them.
     """
-    if lag_um <= 0.0:
+    if not lag_um.any():
         return trace
-    behind = _behind(trace.table_um, ~toolpath.is_jump[trace.row], lag_um)
+    of_sample, cuts = lag_um[trace.row], ~toolpath.is_jump[trace.row]
+    behind = np.zeros_like(trace.table_um)
+    for lag in np.unique(of_sample[of_sample > 0.0]).tolist():
+        behind = np.where((of_sample == lag)[:, None], _behind(trace.table_um, cuts, lag), behind)
     return replace(trace, wire_um=trace.table_um - behind)
 
 

@@ -82,12 +82,12 @@ class WireTaken(NamedTuple):
 
 
 class _Cut(NamedTuple):
-    """The path with the length before each row, the wire's way along it, and half the width of its kerf."""
+    """The path with the length before each row (n,), the wire's way along it, and half the width of its kerf (n,)."""
 
     toolpath: Toolpath
     before_um: Floats
     way: WireTaken
-    reach_um: float
+    reach_um: Floats
 
 
 class _Stations(NamedTuple):
@@ -98,16 +98,21 @@ class _Stations(NamedTuple):
 
 
 class _EarlierWires(NamedTuple):
-    """How far p earlier wires are ahead of each station (p, k) and to the left of it; NaN where one is far off."""
+    """How far p earlier wires are ahead of each station (p, k) and to the left of it; NaN where one is far off.
+
+    `reach_um` (p, 1) is half the width of the kerf of each.
+    """
 
     ahead_um: Floats
     left_um: Floats
+    reach_um: Floats
 
 
-def stocks_of(toolpath: Toolpath, passes: Iterable[Pass], way: WireTaken, reach_um: float) -> list[Stock | None]:
+def stocks_of(toolpath: Toolpath, passes: Iterable[Pass], way: WireTaken, reach_um: Floats) -> list[Stock | None]:
     """Stock of each pass, in the order they are cut; None where the wire did not come to one.
 
-    `reach_um` is half the width of the kerf. Along parallel passes the stock is the difference of their offsets.
+    `reach_um` (n,) is half the width of the kerf in each row. Along parallel passes of one reach the stock is the
+    difference of their offsets.
     """
     cut = _Cut(toolpath, toolpath.before_um, way, reach_um)
     over: dict[int, deque[Pass]] = {}
@@ -127,8 +132,9 @@ def _stock(cut: _Cut, pass_: Pass, before: Sequence[Pass]) -> Stock | None:
     stations = _Stations(taken.place_um[at], headings_at(cut.toolpath, taken.row[at], taken.place_um[at]))
     earlier = _earlier_wires(cut, before, stations)
     sides = (pass_.part_side,) if pass_.part_side else (-1, 1)
-    reached = np.max([_beyond(earlier, side, cut.reach_um) for side in sides], axis=0)
-    thick = np.fmin.reduce([np.full(len(at), 2.0 * cut.reach_um), *reached])
+    reach_um = float(cut.reach_um[pass_.first])
+    reached = np.max([_beyond(earlier, side, reach_um) for side in sides], axis=0)
+    thick = np.fmin.reduce([np.full(len(at), 2.0 * reach_um), *reached])
     return Stock(float(thick.min()), float(thick.max()), float(thick.mean()))
 
 
@@ -136,16 +142,17 @@ def _earlier_wires(cut: _Cut, before: Sequence[Pass], stations: _Stations) -> _E
     """Where the wires of other passes were that came nearest to each station, as far as their kerfs may meet."""
     place, others = stations.place_um, [other for other in before if len(cut.way.on(other).row)]
     ahead, left = np.full((2, len(others), len(place)), np.nan)
+    reach_um = cut.reach_um[np.array([other.first for other in others], dtype=np.int64)][:, None]
     if not others:
-        return _EarlierWires(ahead, left)
+        return _EarlierWires(ahead, left, reach_um)
     row = np.concatenate([np.arange(other.first, other.last + 1) for other in others])
     of = np.repeat(np.arange(len(others)), [other.last - other.first + 1 for other in others])
-    station, at = _nearest(cut.toolpath.picked(row), of, place, 2.0 * cut.reach_um)
+    station, at = _nearest(cut.toolpath.picked(row), of, place, 2.0 * float(cut.reach_um.max()))
     by = _wire(cut, row[at], np.array([cut.way.bounds_um(other) for other in others])[of[at]], place[station])
     heading = stations.heading[station]
     ahead[of[at], station] = (by * heading).sum(axis=1)
     left[of[at], station] = (by * to_left(heading)).sum(axis=1)
-    return _EarlierWires(ahead, left)
+    return _EarlierWires(ahead, left, reach_um)
 
 
 def _nearest(curves: Curves, of: Ints, place: Floats, within_um: float) -> tuple[Ints, Ints]:
@@ -174,8 +181,8 @@ def _wire(cut: _Cut, row: Ints, bounds_um: Floats, place: Floats) -> Floats:
 
 
 def _beyond(earlier_wires: _EarlierWires, side: int, reach_um: float) -> Floats:
-    """How far the kerf reaches beyond earlier ones on a side (p, k), at most its width; NaN where they do not meet."""
-    chord = reach_um**2 - earlier_wires.ahead_um**2
+    """How far a kerf reaches beyond earlier ones on a side (p, k), at most its width; NaN where they do not meet."""
+    chord = earlier_wires.reach_um**2 - earlier_wires.ahead_um**2
     half = np.sqrt(np.where(chord >= 0.0, chord, np.nan))
     thick: Floats = np.clip(reach_um - (side * earlier_wires.left_um + half), 0.0, 2.0 * reach_um)
     return thick
@@ -204,6 +211,7 @@ class PassFigures(NamedTuple):
     """
 
     of: Pass
+    offset_um: float
     length_um: float
     time_s: float
     stock: Stock | None
@@ -211,16 +219,22 @@ class PassFigures(NamedTuple):
 
 
 def figures_of_passes(
-    toolpath: Toolpath, passes: Passes, block_time_s: Floats, way: WireTaken, reach_um: float
+    toolpath: Toolpath, passes: Passes, block_time_s: Floats, way: WireTaken, reach_um: Floats
 ) -> tuple[PassFigures, ...]:
     """Figures of all passes, in the order they are cut, of the way that the wire took as far as the machine ran.
 
-    `block_time_s` (n,) is the planned time in each block, `reach_um` half the width of the kerf.
+    `block_time_s` (n,) is the planned time in each block, `reach_um` (n,) half the width of the kerf.
     """
+    edge_um = {
+        (pass_.edge, pass_.is_tab): float(reach_um[pass_.first])
+        for pass_ in passes.passes
+        if pass_.shift_um <= pass_.edge_um
+    }
     stocks = stocks_of(toolpath, passes.passes, way, reach_um)
     return tuple(
         PassFigures(
             of=pass_,
+            offset_um=pass_.offset_um(edge_um[pass_.edge, pass_.is_tab]),
             length_um=float(toolpath.length_um[pass_.first : pass_.last + 1].sum()),
             time_s=float(block_time_s[pass_.first : pass_.last + 1].sum()),
             stock=stock,

@@ -22,7 +22,7 @@ from parser.findings.findings import Finding
 from parser.geometry.curves import Floats
 from parser.program import Program
 from parser.shape.contours import Contour
-from parser.shape.passes import Passes
+from parser.shape.passes import Passes, pass_numbers
 from parser.text.source import BlockNames
 from parser.toolpath import Toolpath
 from parser.units import from_mm
@@ -38,6 +38,7 @@ from sim.run.prepare import Prepared
 from sim.setup.expectations import Missed
 from sim.setup.machine.machine import Machine, TableModel
 from sim.setup.scenario import Scenario
+from sim.setup.technology import LEVEL
 from sim.table.history import History
 from sim.table.losses import Loss, Peak
 from sim.table.motion import Motion, motion_of
@@ -206,8 +207,20 @@ class DryRun:
 
     @property
     def time_s(self) -> Interval | None:
-        """How long it takes, by no cut of this machine; None where a program for the card set its own speeds."""
-        return None if self.feeds is None else interval_of(self.ran_s, factor_of(np.empty(0)))
+        """How long it takes, by the technology, else by no cut of this machine.
+
+        None where a program for the card set its own speeds. By a technology all passes are as fast, or as slow, as
+        they may be: who errs in one mostly errs in all.
+        """
+        if self.feeds is None:
+            return None
+        if self.scenario.technology is None:
+            return interval_of(self.ran_s, factor_of(np.empty(0)))
+        number = pass_numbers(self.toolpath, self.passes)
+        ratios = [self.scenario.technology_of(each).time_ratios for each in range(1, int(number.max(initial=1)) + 1)]
+        cut_s = np.where(self.toolpath.is_jump, 0.0, self.block_time_s)
+        least, most = (np.array(ratios)[number - 1] - 1.0).T @ cut_s
+        return Interval(self.ran_s + float(least), self.ran_s, self.ran_s + float(most), LEVEL)
 
     @property
     def has_trims(self) -> bool:
@@ -219,7 +232,7 @@ class DryRun:
         """Feed of each pass of the offset; where the program compensates itself, that of the machine for all."""
         offset = self.scenario.offset
         if offset is not None:
-            return tuple(self.scenario.pass_feed_um_s(pass_) for pass_ in offset.passes)
+            return self.scenario.pass_feeds_um_s
         feeds = self.scenario.machine.feeds(self.scenario.thickness_mm)
         return (float(feeds.cut_um_s),) * (len(self.offset.passes) if self.offset else 0)
 

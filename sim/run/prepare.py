@@ -20,7 +20,7 @@ from parser.findings.codes import Check, Severity
 from parser.findings.errors import ProgramError, SettingsError
 from parser.findings.findings import Finding, NotSimulated, WithoutOffset, file_order, telling
 from parser.program import Program
-from parser.shape.passes import find_passes
+from parser.shape.passes import find_passes, pass_numbers
 from sim.check.compensation.check import WithoutValue, compensation_of, is_known
 from sim.check.offset import (
     Distances,
@@ -159,7 +159,7 @@ def prepare(program: Program, scenario: Scenario) -> Prepared:
     program does not have.
     """
     checked, steps = checked_for(program, scenario)
-    feeds = scenario.machine.feeds(scenario.thickness_mm)
+    feeds = _feeds(program, scenario)
     refuse_unknown(program, checked.findings)
     if checked.compensation is not None:
         return _compensated(checked, checked.compensation, feeds)
@@ -172,12 +172,22 @@ def prepare(program: Program, scenario: Scenario) -> Prepared:
         raise refusal(program, beyond)
     travel = travel_findings(offset.program, steps, scenario.machine.table, scenario.start_um)
     coverage = _looked_at(checked.coverage, (Check.CORNERS, Check.TRAVEL))
-    by_pass = np.array([scenario.pass_feed_um_s(pass_) for pass_ in scenario.offset.passes])
+    by_pass = np.array(scenario.pass_feeds_um_s)
     feeds = feeds._replace(cut_um_s=by_pass[offset.pass_of_row])
     added = (*offset.findings, *_between_passes(offset, scenario), *travel)
     named = program.toolpath.source.names.named(in_codes(program.reading, added))
     findings = (*_under_offset(checked.findings), *named)
     return Prepared(offset.program, steps, offset, feeds, findings, coverage)
+
+
+def _feeds(program: Program, scenario: Scenario) -> Feeds:
+    """How fast each block of a program is to be run: as the technology has its pass, else at the machine's own rate."""
+    feeds = scenario.machine.feeds(scenario.thickness_mm)
+    if scenario.technology is None or scenario.offset is not None:
+        return feeds
+    number = pass_numbers(program.toolpath, find_passes(program.toolpath))
+    of_pass = [scenario.technology_feed_um_s(each) for each in range(1, int(number.max(initial=1)) + 1)]
+    return feeds._replace(cut_um_s=np.array(of_pass)[number - 1])
 
 
 def checked_for(program: Program, scenario: Scenario) -> tuple[Checked, Steps]:

@@ -12,25 +12,24 @@ import numpy as np
 
 from controller.card.log import CardLog
 from controller.motion.limits import Feeds
-from controller.motion.plan import Plan
 from controller.stepping.pulses import Pulses
 from parser.dialect.reader import in_codes
 from parser.drawing.model import Drawing
 from parser.findings.findings import Finding, file_order
-from parser.geometry.curves import Floats
 from parser.program import Program
 from parser.shape.contours import Contour, find_contours
-from parser.shape.passes import Passes, find_passes
+from parser.shape.passes import find_passes
 from sim.base.progress import Progress, silent
 from sim.check.result import CheckState
 from sim.cut.findings import missed_work_findings, obstacle_findings, piece_findings, region_finding
 from sim.cut.regions import RegionError
 from sim.cut.remains import Remains, remains_of
 from sim.cut.wire_lag import bowed
+from sim.cut.wire_rows import wire_rows
 from sim.measure.causes import Meters
 from sim.measure.compare.findings import compare_cut, drawing_findings
 from sim.measure.compare.result import Comparison
-from sim.measure.passes import PassFigures, figures_of_passes, wire_taken
+from sim.measure.passes import figures_of_passes, wire_taken
 from sim.run.dryrun import DryRun, Ending, PulseSink, motion_to_end, trip_of
 from sim.run.prepare import Prepared, prepare
 from sim.setup.part import DrawingTarget
@@ -98,21 +97,6 @@ def left_of(  # noqa: PLR0913, PLR0917 - all that is known of the cut, and whom 
     return CutResult(remains, comparison, [*found, *drawing_findings(program, comparison)], CheckState(_REMAINS))
 
 
-def passes_of(
-    ready: Prepared, scenario: Scenario, plan: Plan, cut: Trace, ended: Ending | None
-) -> tuple[Passes, tuple[PassFigures, ...], Floats]:
-    """Passes over each edge, what they came to, and planned times (n + 1,) s: of each block's start, and the last end.
-
-    `cut` is the trace as far as the machine ran, until where it `ended`.
-    """
-    toolpath = ready.program.toolpath
-    passes = find_passes(toolpath) if ready.offset is None else ready.offset.edge_passes
-    border_s = plan.border_s(ready.steps.along_um)
-    time_s = np.diff(np.minimum(border_s, ended.t_s if ended else plan.duration_s))
-    way = wire_taken(toolpath, plan, cut)
-    return passes, figures_of_passes(toolpath, passes, time_s, way, scenario.wire.reach_um), border_s
-
-
 class Along(NamedTuple):
     """What is run: a program that is ready, its motion, where that ends early, its pulses, and its feeds.
 
@@ -170,12 +154,16 @@ def run_along(
         if sink is not None:
             sink.take(followed)
     moved = table.moved
-    trace = bowed(moved.trace, toolpath, scenario.wire_lag_um)
+    passes = find_passes(toolpath) if ready.offset is None else ready.offset.edge_passes
+    wire = wire_rows(toolpath, scenario, passes)
+    trace = bowed(moved.trace, toolpath, wire.lag_um)
     stepped, plan = meters.tally.result(), motion.drive.plan
     contours = find_contours(toolpath, stepped.corner_um)
     ended = trip_of(moved.losses) or ended
     cut = trace.until(ended.t_s) if ended else trace
-    passes, figures, border_s = passes_of(ready, scenario, plan, cut, ended)
+    border_s = plan.border_s(ready.steps.along_um)
+    block_time_s = np.diff(np.minimum(border_s, ended.t_s if ended else plan.duration_s))
+    figures = figures_of_passes(toolpath, passes, block_time_s, wire_taken(toolpath, plan, cut), wire.reach_um)
     left = left_of(program, cut, contours, scenario, drawing, progress, is_whole=ended is None, measured=measured)
     return DryRun(
         program=program,

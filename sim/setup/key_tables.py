@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any, Final, NamedTuple
 
 from parser.findings.catalogue import Bilingual, Language
-from sim.setup import limits, scenario, shop
+from sim.setup import limits, scenario, shop, technology
 from sim.setup.expectations import EXPECT
 from sim.setup.key_words import setting_text, words, words_of
 from sim.setup.machine import machine
@@ -62,6 +62,14 @@ def limits_schema() -> dict[str, Any]:
     return _file_schema("limits of a test piece for drycut (docs/accept.md)", limits.PIECE, [limits.FEATURE])
 
 
+def technology_schema() -> dict[str, Any]:
+    """JSON schema of a technology file."""
+    top = Section("technology", (), form="top")
+    schema = _file_schema("a technology file of drycut (docs/technology.md)", top, technology.SECTIONS)
+    schema["required"] = [section.name for section in technology.SECTIONS]
+    return schema
+
+
 _MAY_BE_LEFT_OUT: Final = ("arm",)
 
 
@@ -95,6 +103,8 @@ DOCUMENTS: tuple[tuple[Language, Path], ...] = (
     ("zh", Path("docs/scenarios.zh.md")),
     ("en", Path("docs/time.md")),
     ("zh", Path("docs/time.zh.md")),
+    ("en", Path("docs/technology.md")),
+    ("zh", Path("docs/technology.zh.md")),
     ("en", Path("docs/accept.md")),
     ("zh", Path("docs/accept.zh.md")),
 )
@@ -124,6 +134,7 @@ def _tables(language: Language) -> dict[str, str]:
         "machine": _table((_row(*of) for of in of_machine if _is_needed(*of)), language, left_out=("default",)),
         "machine that may be left out": _table((_row(*of) for of in of_machine if not _is_needed(*of)), language),
         "limits": _table((_row(section, key) for section in limits.SECTIONS for key in section.keys), language),
+        "technology": _table((_row(section, key) for section in technology.SECTIONS for key in section.keys), language),
         "shop": _table((_row(section, key) for section in shop.SECTIONS for key in section.keys), language),
     }
 

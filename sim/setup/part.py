@@ -235,10 +235,12 @@ DEFAULT_DENSITY_G_CM3 = 7.85
 THICKNESS = Key(
     "thickness_mm", Number(THICKNESS_MM, "mm"), default=DEFAULT_THICKNESS_MM, option="--thickness", form="thickness_mm"
 )
+MATERIAL = Key("material", Name(), default=None, option="--material")
 WORK = Section(
     "work",
     (
         THICKNESS,
+        MATERIAL,
         Key("density_g_cm3", Number(DENSITY_G_CM3, "g/cm³"), default=DEFAULT_DENSITY_G_CM3),
         Key("outline_mm", OutlineMm(), "work_um", default=None),
     ),

@@ -3,8 +3,10 @@
 A folder holds ``scenario.toml`` and the program it names; a program alone is a scenario with the defaults.
 """
 
-from dataclasses import dataclass, field
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Any
 
 from parser.dialect.reader import (
     Choices,
@@ -16,7 +18,7 @@ from parser.findings.catalogue import Bilingual, Language
 from parser.findings.errors import FileUnreadableError, SettingsError, system_message
 from parser.program import suffixes
 from parser.text.encoding import printable
-from parser.units import from_mm
+from parser.units import from_mm, mm
 from sim.setup.dialect import READ_WITH, chosen_dialect
 from sim.setup.expectations import EXPECT, Expectation, expect_section, read_expectation
 from sim.setup.machine.machine import Machine, load_machine
@@ -40,14 +42,17 @@ from sim.setup.part import (
     read_offset,
 )
 from sim.setup.quiz import QUIZ, Question, read_quiz
-from sim.setup.settable import INTERPOLATOR, KERF, MAY_STAY_OPEN, PAST_STOP
+from sim.setup.settable import INTERPOLATOR, KERF, MAY_STAY_OPEN, PAST_STOP, with_settings
+from sim.setup.technology import Choice, PassTechnology, Technology, assumed_pass, load_technology, passes_at
 from sim.setup.toml.keys import Key, Section, WrittenSection
 from sim.setup.toml.kinds import FileName, Name, Number, TablePlace, Text
 from sim.setup.toml.reader import Bound, load_toml, number, section
-from sim.setup.wire import DEFAULT_WIRE, WIRE, Wire, read_wire
+from sim.setup.wire import DEFAULT_WIRE, LAG, LAG_KEYS, SPARK_GAP, WIRE, Wire, read_wire
 
 MACHINE_FILE = "machine.toml"
 """Name of the machine file beside a scenario file that is written."""
+TECHNOLOGY_FILE = "technology.toml"
+"""The same of the technology file."""
 TRACE_SPACING_UM = Bound(0.1, 1e4)
 _BOUNDS = {"thickness_mm": THICKNESS_MM, "trace_spacing_um": TRACE_SPACING_UM, "density_g_cm3": DENSITY_G_CM3}
 DEFAULT_MACHINE = "dk7740"
@@ -99,6 +104,9 @@ class Scenario:
         What a shop writes on the sheet of the job.
     expect
         What the scenario promises of its report; checked after the run.
+    technology, material
+        What the wire does in a material, and which that is; the only one that it knows where None. The gap and the lag
+        of `wire` are then those of the first pass.
     machine_by_default
         Whether nobody named a machine. A file that is written names it, and makes the same run all the same.
     """
@@ -127,13 +135,48 @@ class Scenario:
     title_zh: str | None = None
     sheet: JobFields = JobFields()  # noqa: RUF009 - frozen
     expect: tuple[Expectation, ...] = ()
+    technology: Technology | None = None
+    material: str | None = None
     machine_by_default: bool = field(default=False, compare=False)
 
     def __post_init__(self) -> None:
-        """Check the numbers, and that the wire has a lag in this work."""
+        """Check the numbers, and that the wire has a lag in this work; the wire cuts as the technology says."""
         for name, bound in _BOUNDS.items():
             number(getattr(self, name), bound, name)
+        if self.technology is not None:
+            first = self.pass_technologies[0]
+            lag_um = self.wire.lag if first.lag_um is None else first.lag_um.value
+            wire = replace(self.wire, spark_gap_um=first.gap_um.value, lag=lag_um)
+            object.__setattr__(self, "wire", wire)
+        elif self.material is not None:
+            raise SettingsError("material-without-technology", material=self.material)
         self.wire.lag_um(self.thickness_mm)
+
+    @property
+    def cut_material(self) -> str | None:
+        """What is cut, None without a technology. SettingsError where it knows several, and none is named."""
+        if self.technology is None or self.material is not None:
+            return self.material
+        if len(self.technology.materials) > 1:
+            known = ", ".join(self.technology.materials)
+            raise SettingsError("technology-needs-material", name=self.technology.name, known=known)
+        return self.technology.materials[0]
+
+    @property
+    def pass_technologies(self) -> tuple[PassTechnology, ...]:
+        """What each pass does, as the technology says; without one a single pass, assumed.
+
+        SettingsError where the technology knows nothing of the material or of the wire.
+        """
+        if self.technology is None or self.cut_material is None:
+            feed_um_s = self.machine.cut_um_s(self.thickness_mm, self.machine.area_rate_mm2_min)
+            return (assumed_pass(self.wire.spark_gap_um, mm(feed_um_s) * 60.0, self.wire_lag_um, self.machine.name),)
+        return passes_at(self.technology, Choice(self.cut_material, self.wire.diameter_um, self.thickness_mm))
+
+    def technology_of(self, number: int) -> PassTechnology:
+        """What the pass of a number does, from 1; one that is not known does what the nearest before it does."""
+        known = self.pass_technologies
+        return next((each for each in reversed(known) if each.number <= number), known[0])
 
     @property
     def titles(self) -> Bilingual:
@@ -160,16 +203,39 @@ class Scenario:
         """How far the wire bows back behind its guides."""
         return self.wire.lag_um(self.thickness_mm)
 
+    def reach_um(self, number: int) -> float:
+        """Half the width of the kerf of a pass, from 1."""
+        return self.wire.radius_um + self.technology_of(number).gap_um.value
+
+    def lag_um(self, number: int) -> float:
+        """How far the wire bows back in a pass, from 1."""
+        of_pass = self.technology_of(number)
+        return self.wire_lag_um if of_pass.lag_um is None else of_pass.lag_um.value
+
+    @property
+    def pass_feeds_um_s(self) -> tuple[float, ...]:
+        """Feed of each pass of its offset as the controller runs it, µm/s; none without an offset."""
+        passes = () if self.offset is None else self.offset.passes
+        return tuple(self._pass_feed_um_s(pass_, number) for number, pass_ in enumerate(passes, start=1))
+
     @property
     def pass_tables(self) -> tuple[OffsetPass, ...]:
         """Passes that its file tells one by one: none where ``[offset]`` says all of it."""
         return () if self.offset is None or self.offset.is_plain else self.offset.passes
 
-    def pass_feed_um_s(self, offset_pass: OffsetPass) -> float:
-        """Feed of a pass as the controller runs it, µm/s."""
+    def _pass_feed_um_s(self, offset_pass: OffsetPass, number: int) -> float:
         if offset_pass.feed_um_s is not None:
             return self.machine.held_um_s(offset_pass.feed_um_s)
-        return self.machine.cut_um_s(self.thickness_mm, offset_pass.area_rate_mm2_min or self.machine.area_rate_mm2_min)
+        if offset_pass.area_rate_mm2_min is not None:
+            return self.machine.cut_um_s(self.thickness_mm, offset_pass.area_rate_mm2_min)
+        return self.technology_feed_um_s(number)
+
+    def technology_feed_um_s(self, number: int) -> float:
+        """Feed of a pass as the controller runs it, µm/s: the technology's, else by the machine's own area rate."""
+        feed_mm_min = self.technology_of(number).feed_mm_min
+        if self.technology is None or feed_mm_min is None:
+            return self.machine.cut_um_s(self.thickness_mm, self.machine.area_rate_mm2_min)
+        return self.machine.held_um_s(from_mm(feed_mm_min.value) / 60.0)
 
     @property
     def start_um(self) -> tuple[float, float]:
@@ -199,6 +265,7 @@ TOP = Section(
         Key("machine", Text(), default=DEFAULT_MACHINE, get=lambda _: MACHINE_FILE),
         *READ_WITH,
         INTERPOLATOR,
+        Key("technology", FileName(), default=None, get=lambda scenario: scenario.technology and Path(TECHNOLOGY_FILE)),
         Key("start_mm", TablePlace(), default=None),
         MAY_STAY_OPEN,
         PAST_STOP,
@@ -232,6 +299,9 @@ def load_scenario(path: Path | str) -> Scenario:
     top = content if to_make is None else {**content, "program": str(to_make.file)}
     value = TOP.read(top, where, others=(section.name for section in SECTIONS[1:]))
     machine = load_machine(value.pop("machine"), folder=path)
+    technology = value.pop("technology")
+    if technology is not None:
+        refuse_gap(section(content, "wire", where), f"{where}: [wire]")
     interpolator, program = value.pop("interpolator"), value.pop("program")
     value["dialect"] = chosen_dialect(value["dialect"], path, {}, where)
     return Scenario(
@@ -244,6 +314,7 @@ def load_scenario(path: Path | str) -> Scenario:
         drawing=drawing,
         to_make=to_make,
         quiz=read_quiz(content, where),
+        technology=technology and load_technology(path / technology),
         sheet=JobFields(**SHEET.read_in(content, where)),
         expect=read_expectation(section(content, "expect", where), f"{where}: [expect]"),
         machine_by_default="machine" not in content,
@@ -252,9 +323,37 @@ def load_scenario(path: Path | str) -> Scenario:
     )
 
 
+def with_values(scenario: Scenario, values: Mapping[str, Any], technology: Technology | None = None) -> Scenario:
+    """The scenario with values of options, as they are inside, in place of its own, and with a technology if given.
+
+    SettingsError for a gap or a lag beside a technology, which tells both.
+    """
+    option = next((key.option for key in (SPARK_GAP, LAG) if key.name in values), None)
+    if technology is None:
+        technology = scenario.technology
+    if option is not None and technology is not None:
+        raise SettingsError("technology-tells-gap", where=technology.name, key=option)
+    return with_settings(scenario, values, technology=technology)
+
+
+def _without_gap(written: WrittenSection) -> WrittenSection:
+    """A ``[wire]`` without what the technology tells."""
+    of_technology = {key.name for key in (SPARK_GAP, *LAG_KEYS)}
+    return written._replace(values={name: value for name, value in written.values.items() if name not in of_technology})
+
+
+def refuse_gap(wire: Mapping[str, Any], where: str) -> None:
+    """SettingsError where a gap or a lag of the wire is given, though the technology tells both."""
+    key = next((key.name for key in (SPARK_GAP, *LAG_KEYS) if key.name in wire), None)
+    if key is not None:
+        raise SettingsError("technology-tells-gap", where=where, key=key)
+
+
 def scenario_sections(scenario: Scenario) -> list[WrittenSection]:
     """Sections of the scenario file that asks for the same run, on the machine of ``machine.toml``."""
     tables = [written for section in SECTIONS[:-1] for written in section.written(scenario)]
+    if scenario.technology is not None:
+        tables = [_without_gap(written) if written.section is WIRE else written for written in tables]
     return [*tables, expect_section(scenario.expect)]
 
 

@@ -43,9 +43,13 @@ FIELDS: Final = {key.form: key for key in SETTABLE.values() if key.form}
 """Those that have a field of the page, by its name."""
 
 
-def with_settings(scenario: Whole, values: Mapping[str, Any]) -> Whole:
-    """The scenario with values, as they are inside, in place of its own, by the names of their keys."""
-    return _with(scenario, {path: values[key.name] for path, key in SETTABLE.items() if key.name in values})
+def with_settings(scenario: Whole, values: Mapping[str, Any], **others: Any) -> Whole:
+    """The scenario with values, as they are inside, in place of its own, by the names of their keys.
+
+    `others` are fields of the scenario that have no such key; all are put in at once, as they may depend.
+    """
+    found = {path: values[key.name] for path, key in SETTABLE.items() if key.name in values}
+    return _with(scenario, {**found, **others})
 
 
 def _with(whole: Whole, values: Mapping[str, Any]) -> Whole:

@@ -158,13 +158,14 @@ LAG = Key(
     option="--wire-lag",
     form="lag_um",
 )
+LAG_KEYS = (LAG, *_FORCES)
+"""Keys that tell a lag."""
 WIRE = Section(
     "wire",
     (
         DIAMETER,
         SPARK_GAP,
-        LAG,
-        *_FORCES,
+        *LAG_KEYS,
     ),
     fills="wire",
 )

@@ -14,7 +14,7 @@ from sim.run.ballbar.model import BALLBAR
 from sim.run.report.drawing import COMPARE
 from sim.run.report.model import REPORT
 from sim.run.times.model import TIME
-from sim.setup.key_tables import limits_schema, machine_schema, scenario_schema, shop_schema
+from sim.setup.key_tables import limits_schema, machine_schema, scenario_schema, shop_schema, technology_schema
 from sim.show.findings.explained import EXPLAIN
 from sim.show.findings.json import CHECK
 from sim.show.index_page.model import INDEX
@@ -30,6 +30,7 @@ def pages() -> Iterator[tuple[Path, str]]:
         "machine": machine_schema(),
         "settings": settings_schema(),
         "shop": shop_schema(),
+        "technology": technology_schema(),
         "limits": limits_schema(),
     }
     for name, schema in written.items():

@@ -51,7 +51,7 @@ def contours_of(path: Toolpath) -> tuple[Contour, ...]:
 
 
 def kerf_along(path: Toolpath, trace: Trace | None = None, offset_um: float = F) -> Kerf:
-    return kerf_of(path, trace or trace_of(path), contours_of(path), offset_um)
+    return kerf_of(path, trace or trace_of(path), contours_of(path), np.full(len(path), offset_um))
 
 
 def pieces_along(path: Toolpath, work_um: Outline | None = None, stray: Stray = exactly) -> Pieces:

@@ -43,8 +43,8 @@ def bends_of(curves: Curves) -> Floats:
     return bend
 
 
-def longest_bands_um(bend: Floats, longest_um: float, offset_um: float) -> Floats:
-    """Longest band (n,) along each of some arcs and lines, but `longest_um`; 0 of arcs that are too tight."""
+def longest_bands_um(bend: Floats, longest_um: Floats, offset_um: Floats) -> Floats:
+    """Longest band (n,) along each of some arcs and lines, but `longest_um` (n,); 0 of arcs that are too tight."""
     radius = np.abs(bend[:, 2])
     of_arcs = np.where(radius < _TIGHTEST * offset_um, 0.0, np.minimum(longest_um, _TURN_RAD * radius))
     longest: Floats = np.where(radius > 0.0, of_arcs, longest_um)

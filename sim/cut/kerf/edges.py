@@ -74,12 +74,12 @@ class _Stations(NamedTuple):
     spacing_um: Floats
 
 
-def edges_of(curves: Curves, cut: NDArray[np.bool_], ways: tuple[WireWay, ...], offset_um: float) -> Edges:
-    """Edges beside the rows that are `cut` (n,), by where the wire went."""
+def edges_of(curves: Curves, cut: NDArray[np.bool_], ways: tuple[WireWay, ...], wire_um: Floats) -> Edges:
+    """Edges beside the rows that are `cut` (n,), by where the wire went, and its reach in each (n,)."""
     stations = _stations(curves, np.flatnonzero(cut))
-    left, right = np.where(np.isinf(reaches := _reaches(curves, stations, ways, offset_um)), np.nan, reaches)
+    left, right = np.where(np.isinf(reaches := _reaches(curves, stations, ways, wire_um)), np.nan, reaches)
     return Edges(
-        stations.row, stations.place_um, stations.left, left, right, _inner(stations, _margins(curves, cut, offset_um))
+        stations.row, stations.place_um, stations.left, left, right, _inner(stations, _margins(curves, cut, wire_um))
     )
 
 
@@ -109,16 +109,16 @@ def _stations(curves: Curves, rows: Ints) -> _Stations:
     return _Stations(row, places_at(curves, row, along), to_left(heading), first, number, spacing)
 
 
-def _reaches(curves: Curves, stations: _Stations, ways: tuple[WireWay, ...], offset_um: float) -> Floats:
+def _reaches(curves: Curves, stations: _Stations, ways: tuple[WireWay, ...], wire_um: Floats) -> Floats:
     """How far (2, m) the discs of each station's own block reach to the left and to the right; −inf where none is."""
     reaches, station = np.full((2, len(stations.row)), -np.inf), np.hstack([stations.place_um, stations.left])
     # A block with more than the fewest stations has them more than half the usual spacing apart: no disc meets more.
-    most = max(int(np.ceil(2.0 * offset_um / _SPACING_UM)) + 1, _FEWEST_ON_ARC)
+    most = max(int(np.ceil(2.0 * float(wire_um.max()) / _SPACING_UM)) + 1, _FEWEST_ON_ARC)
     for row, place in _places(ways):
         nearest = np.rint(_along_um(curves, row, place) / stations.spacing_um[row]).astype(np.int64)
         low, past = stations.first[row], stations.first[row] + stations.number[row]
         met = np.stack([np.maximum(low + nearest - most, low), np.minimum(low + nearest + most + 1, past)], axis=1)
-        _raise_to_discs(place, met, station, offset_um, reaches)
+        _raise_to_discs(place, met, station, wire_um[row], reaches)
     return reaches
 
 
@@ -129,9 +129,9 @@ def _places(ways: tuple[WireWay, ...]) -> Iterator[tuple[Ints, Floats]]:
             yield way.row[low : low + _TOGETHER], way.place_um[low : low + _TOGETHER]
 
 
-@compiled("void(f8[:,::1], i8[:,::1], f8[:,::1], f8, f8[:,::1])")
-def _raise_to_discs(place: Floats, met: Ints, station: Floats, offset: float, reaches: Floats) -> None:
-    """Raise the reaches (2, m) to where the normals of the stations leave the discs about the places (p, 2).
+@compiled("void(f8[:,::1], i8[:,::1], f8[:,::1], f8[::1], f8[:,::1])")
+def _raise_to_discs(place: Floats, met: Ints, station: Floats, radius: Floats, reaches: Floats) -> None:
+    """Raise the reaches (2, m) to where the normals of the stations leave discs (p,) about the places (p, 2).
 
     Each disc counts at the stations from `met` (p, 2) on, one past the last; `station` (m, 4) are places and normals.
     """
@@ -139,8 +139,8 @@ def _raise_to_discs(place: Floats, met: Ints, station: Floats, offset: float, re
         for at in range(met[p, 0], met[p, 1]):
             out_x, out_y = place[p, 0] - station[at, 0], place[p, 1] - station[at, 1]
             aside = out_x * station[at, 3] - out_y * station[at, 2]
-            if abs(aside) <= offset:
-                half = np.sqrt(offset * offset - aside * aside)
+            if abs(aside) <= radius[p]:
+                half = np.sqrt(radius[p] * radius[p] - aside * aside)
                 along = out_x * station[at, 2] + out_y * station[at, 3]
                 reaches[0, at] = max(reaches[0, at], half + along)
                 reaches[1, at] = max(reaches[1, at], half - along)
@@ -169,18 +169,18 @@ def _along_arcs_um(curves: Curves, row: Ints, place_um: Floats) -> Floats:
     return along
 
 
-def _margins(curves: Curves, cut: NDArray[np.bool_], offset_um: float) -> Floats:
+def _margins(curves: Curves, cut: NDArray[np.bool_], wire_um: Floats) -> Floats:
     """How far (n, 2) µm corners shape the edges beside the rows, from their starts and from their ends."""
     way = directions(curves)
     into, out_of = way.arriving[:-1], way.leaving[1:]
     cosine = (into * out_of).sum(axis=1)
     sine = np.abs(into[:, 0] * out_of[:, 1] - into[:, 1] * out_of[:, 0])
     joined = cut[:-1] & cut[1:] & (cosine > 0.0)
-    margins = np.full((len(curves), 2), offset_um)
     # tan(θ/2) = sin θ / (1 + cos θ)
-    between = np.where(joined, offset_um * sine / (1.0 + np.maximum(cosine, 0.0)), offset_um)
+    between = np.where(joined, sine / (1.0 + np.maximum(cosine, 0.0)), 1.0)
+    margins = np.ones((len(curves), 2))
     margins[1:, 0], margins[:-1, 1] = between, between
-    return margins
+    return margins * wire_um[:, None]
 
 
 def _inner(stations: _Stations, margins_um: Floats) -> NDArray[np.bool_]:
@@ -200,12 +200,20 @@ _SEAL = 8  # chords of half a disc ahead of each shape: rounding may leave a gap
 _LEAST_RAD = 0.1  # of a sector: corners too near to each other come out of order by rounding
 
 
-def nominal_region(curves: Curves, cut: NDArray[np.bool_], offset_um: float, boxes_um: Regions | None = None) -> Region:
-    """Union of the kerfs along the rows that are `cut` (n,), with an offset on both sides and round all ends.
+def nominal_region(curves: Curves, cut: NDArray[np.bool_], wire_um: Floats, boxes_um: Regions | None = None) -> Region:
+    """Union of the kerfs along the rows that are `cut` (n,), with an offset (n,) on both sides and round all ends.
 
     Where boxes (b,) are given, it is whole within these alone: what does not reach into any is left out.
     """
-    curves, cut = curves.picked(curves.length_um > 0.0), cut[curves.length_um > 0.0]
+    is_long = curves.length_um > 0.0
+    curves, cut, wire_um = curves.picked(is_long), cut[is_long], wire_um[is_long]
+    offsets = np.unique(wire_um[cut]).tolist()
+    shapes = [np.empty(0, dtype=np.object_), *(_nominal(curves, cut & (wire_um == each), each) for each in offsets)]
+    return union_all(_reaching(np.concatenate(shapes), boxes_um))
+
+
+def _nominal(curves: Curves, cut: NDArray[np.bool_], offset_um: float) -> Regions:
+    """Shapes (k,) that cover the kerf along the rows that are `cut` (n,), with one offset."""
     turn = _turns(curves, cut)
     slight = np.where(np.abs(turn) <= _widest_rad(np.array(offset_um)), turn, 0.0)
     line, arc = cut & ~curves.is_arc, cut & curves.is_arc
@@ -216,7 +224,8 @@ def nominal_region(curves: Curves, cut: NDArray[np.bool_], offset_um: float, box
         _along_arcs(curves.picked(arc), slight[arc], offset_um),
         _fans(sharp, offset_um),
     ]
-    return union_all(_reaching(np.concatenate(shapes), boxes_um))
+    covering: Regions = np.concatenate(shapes)
+    return covering
 
 
 def _reaching(shapes: Regions, boxes_um: Regions | None) -> Regions:

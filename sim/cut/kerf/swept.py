@@ -55,7 +55,7 @@ class Swept(NamedTuple):
     chord_um, off_um
         (s, 2, 2) and (s,) float64, from the first place of each to its last, and how far places lie off that at most.
     offset_um
-        Half the width that the wire cuts.
+        (s,) half the width that the wire cuts on each.
     region_um
         The whole, empty where the wire did not come. Regions of stretches are made again where they are looked at.
     boxes
@@ -69,7 +69,7 @@ class Swept(NamedTuple):
     bend: Floats
     chord_um: Floats
     off_um: Floats
-    offset_um: float
+    offset_um: Floats
     region_um: Region
     boxes: tuple[Floats, ...]
 
@@ -79,11 +79,12 @@ class Swept(NamedTuple):
         `wider_um` is added to the offset.
         """
         begin, place_um = max(since, int(self.border[stretch])), self.way.place_um
-        bounds, offset_um = np.array([[begin, at + 1]]), self.offset_um + wider_um
+        bounds, own_um = np.array([[begin, at + 1]]), float(self.offset_um[stretch])
+        offset_um = own_um + wider_um
         if not self.is_band[stretch]:
             whole = self.border[None, stretch : stretch + 2]
             made = stars(place_um, bounds, middles(self.way, whole), offset_um)
-        elif np.hypot(*(place_um[at] - place_um[begin])) <= self.offset_um:  # too short to tell where it leads
+        elif np.hypot(*(place_um[at] - place_um[begin])) <= own_um:  # too short to tell where it leads
             made = stars(place_um, bounds, place_um[bounds[:, 0]], offset_um)
         else:
             made = bands(place_um, bounds, self.bend[None, stretch], offset_um)
@@ -93,7 +94,7 @@ class Swept(NamedTuple):
     def of_stretches(self, at: Ints) -> Regions:
         """Regions (k,) of some stretches."""
         bounds = np.stack([self.border[at], self.border[at + 1]], axis=1)
-        return _regions(self.way, bounds, self.is_band[at], self.bend[at], self.offset_um)
+        return _regions(self.way, bounds, self.is_band[at], self.bend[at], self.offset_um[at])
 
     def stretches_near(self, box: Box) -> Ints:
         """Indices (k,) of the stretches whose regions come near a box, in order."""
@@ -121,11 +122,11 @@ class Swept(NamedTuple):
         return places
 
 
-def swept_along(curves: Curves, way: WireWay, offset_um: float) -> Swept:
-    """The region that a wire with this offset sweeps on its way along the rows of some curves."""
+def swept_along(curves: Curves, way: WireWay, reach_um: Floats) -> Swept:
+    """The region that a wire sweeps on its way along the rows (n,) of some curves, by its reach (n,) in each."""
     bends = bends_of(curves)
-    first, is_band = _stretches(way, _longest_um(curves, offset_um), bends, offset_um)
-    border, bend = np.append(first, len(way.row)), bends[way.row[first]]
+    first, is_band = _stretches(way, _longest_um(curves, reach_um), bends, reach_um)
+    border, bend, offset_um = np.append(first, len(way.row)), bends[way.row[first]], reach_um[way.row[first]]
     regions = _regions(way, np.stack([first, border[1:]], axis=1), is_band, bend, offset_um)
     boxes = _boxes(np.asarray(shapely.bounds(regions)).reshape(-1, 4))
     return Swept(way, border, is_band, bend, *_chords(way.place_um, border), offset_um, _joined(regions), boxes)
@@ -145,22 +146,23 @@ def _chords(place_um: Floats, border: Ints) -> tuple[Floats, Floats]:
     return chord, np.maximum.reduceat(np.hypot(off[:, 0], off[:, 1]), border[:-1])
 
 
-def _regions(way: WireWay, bounds: Ints, is_band: Bools, bend: Floats, offset_um: float) -> Regions:
-    """Regions (s,) of stretches, by their `bounds` (s, 2)."""
+def _regions(way: WireWay, bounds: Ints, is_band: Bools, bend: Floats, offset_um: Floats) -> Regions:
+    """Regions (s,) of stretches, by their `bounds` (s, 2), with an offset (s,) each."""
     regions = np.empty(len(bounds), dtype=np.object_)
-    regions[is_band] = bands(way.place_um, bounds[is_band], bend[is_band], offset_um)
-    regions[~is_band] = stars(way.place_um, bounds[~is_band], middles(way, bounds[~is_band]), offset_um)
+    for own_um in np.unique(offset_um).tolist():
+        band, star = (np.flatnonzero((offset_um == own_um) & these) for these in (is_band, ~is_band))
+        regions[band] = bands(way.place_um, bounds[band], bend[band], own_um)
+        regions[star] = stars(way.place_um, bounds[star], middles(way, bounds[star]), own_um)
     return regions
 
 
-def _longest_um(curves: Curves, offset_um: float) -> Floats:
+def _longest_um(curves: Curves, reach_um: Floats) -> Floats:
     """Longest stretch allowed in each row (n,), µm; on tight arcs it is shorter, so that no stretch turns far."""
-    longest = np.full(len(curves), _STRETCH * offset_um)
-    shorter: Floats = np.fmin(longest, _TURN_RAD * curves.radius_um)
+    shorter: Floats = np.fmin(_STRETCH * reach_um, _TURN_RAD * curves.radius_um)
     return shorter
 
 
-def _stretches(way: WireWay, longest_um: Floats, bends: Floats, offset_um: float) -> tuple[Ints, Bools]:
+def _stretches(way: WireWay, longest_um: Floats, bends: Floats, reach_um: Floats) -> tuple[Ints, Bools]:
     """Indices (s,) of the first place of each stretch, and whether it is a band. None runs on into the next block.
 
     The rays of a star miss the notch between two discs. Notches are sharp at corners only, and there a new star begins.
@@ -169,7 +171,7 @@ def _stretches(way: WireWay, longest_um: Floats, bends: Floats, offset_um: float
         return np.empty(0, dtype=np.int64), np.empty(0, dtype=np.bool_)
     changes = np.diff(way.row, prepend=-1) != 0
     along = way.along_um - way.along_um[changes][np.cumsum(changes) - 1]
-    longest_band = longest_bands_um(bends, _BAND * offset_um, offset_um)
+    longest_band = longest_bands_um(bends, _BAND * reach_um, reach_um)
     is_long = _starts(changes, along, np.maximum(longest_band, longest_um)[way.row])
     long = np.flatnonzero(is_long)
     past, row = np.append(long[1:], len(way.row)), way.row[long]
@@ -224,8 +226,8 @@ class Kerf:
     ----------
     toolpath
         The path that was run.
-    offset_um
-        Half the width that the wire cuts: its radius plus the spark gap.
+    reach_um
+        (n,) half the width that the wire cuts in each block: its radius plus the spark gap of the pass.
     swept
         What the wire swept on each contour, with its polygon `region_um`.
     leads
@@ -237,11 +239,16 @@ class Kerf:
     """
 
     toolpath: Toolpath
-    offset_um: float
+    reach_um: Floats
     swept: tuple[Swept, ...]
     leads: Bools
     pass_edge: Ints
     region_um: Region
+
+    @property
+    def offset_um(self) -> float:
+        """Half the greatest width that the wire cuts in any block."""
+        return float(self.reach_um.max())
 
     @property
     def area_mm2(self) -> float:
@@ -252,7 +259,7 @@ class Kerf:
     def edges(self) -> Edges:
         """Both edges at stations along the blocks; who asks for pieces alone does without them."""
         ways = tuple(each.way for each in self.swept)
-        return edges_of(self.toolpath, ~self.toolpath.is_jump, ways, self.offset_um)
+        return edges_of(self.toolpath, ~self.toolpath.is_jump, ways, self.reach_um)
 
     @cached_property
     def left_reach(self) -> Range:
@@ -270,18 +277,18 @@ class Kerf:
         return ranges(self.edges, self.edges.left_um + self.edges.right_um, len(self.toolpath))
 
 
-def kerf_of(toolpath: Toolpath, trace: Trace, contours: Sequence[Contour], offset_um: float) -> Kerf:
-    """Kerf of a run by where the wire really was, an offset above 0 to all sides of it.
+def kerf_of(toolpath: Toolpath, trace: Trace, contours: Sequence[Contour], reach_um: Floats) -> Kerf:
+    """Kerf of a run by where the wire really was; in each block (n,) it reaches above 0 to all sides of it.
 
     RegionError with the blocks of a contour whose kerf could not be worked out.
     """
-    ways = wire_ways(trace, contours, offset_um)
-    swept = tuple(_swept(toolpath, contour, way, offset_um) for contour, way in zip(contours, ways, strict=True))
+    ways = wire_ways(trace, contours, float(reach_um.min()))
+    swept = tuple(_swept(toolpath, contour, way, reach_um) for contour, way in zip(contours, ways, strict=True))
     passes = find_passes(toolpath)
     edge_of = np.array([*(pass_.edge for pass_ in passes.passes), -1], dtype=np.int64)
     return Kerf(
         toolpath=toolpath,
-        offset_um=offset_um,
+        reach_um=reach_um,
         swept=swept,
         leads=leads_of(passes, toolpath),
         pass_edge=edge_of[passes.of_row],
@@ -289,6 +296,6 @@ def kerf_of(toolpath: Toolpath, trace: Trace, contours: Sequence[Contour], offse
     )
 
 
-def _swept(toolpath: Toolpath, contour: Contour, way: WireWay, offset_um: float) -> Swept:
+def _swept(toolpath: Toolpath, contour: Contour, way: WireWay, reach_um: Floats) -> Swept:
     with cut_by_blocks(contour.first, contour.last):
-        return swept_along(toolpath, way, offset_um)
+        return swept_along(toolpath, way, reach_um)

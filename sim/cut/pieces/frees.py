@@ -177,9 +177,10 @@ class _Frees:
         if not gap.whole:  # it holds by less than a contact
             return FreeMoment(contour, last, self._hung_um(part, parting, []))
         place = swept.way.place_um[first : last + 1]
-        reaching = first + _reaching(place, gap.box, swept.offset_um)
+        offset_um = float(swept.offset_um[self._cells.place_of(parting.stretch)[1]])
+        reaching = first + _reaching(place, gap.box, offset_um)
         since, past = int(reaching[0]), int(reaching[-1])
-        at, stride = first + gap.closes_about(place, swept.offset_um), 1
+        at, stride = first + gap.closes_about(place, offset_um), 1
         low, high = first - 1, past
         # In strides that double, from where the wire first comes upon what was cut before: most gaps close there.
         while high - low > 1:

@@ -104,15 +104,16 @@ class KeptEdges(NamedTuple):
 
 def kept_edges(kerf: Kerf, shapes: tuple[KeptShape, ...]) -> KeptEdges:
     """Edges of shapes that are kept."""
-    edges, offset_um = kerf.edges, kerf.offset_um
+    edges = kerf.edges
     inner = np.flatnonzero(edges.inner & ~np.isnan(edges.left_um))
     station, side = np.tile(inner, 2), np.repeat(np.array([1, -1]), len(inner))
     out = side[:, None] * edges.left[station]
+    offset_um = kerf.reach_um[edges.row[station]]
     reach = np.where(side > 0, edges.left_um[station], edges.right_um[station])
-    cut, ideal = edges.place_um[station] + reach[:, None] * out, edges.place_um[station] + offset_um * out
+    cut, ideal = edges.place_um[station] + reach[:, None] * out, edges.place_um[station] + offset_um[:, None] * out
     shape = _rings_at([kept_shape.outline_um.exterior for kept_shape in shapes], cut)
     edges_of_part = KeptEdges(station, edges.row[station], side, shape, cut, ideal).picked(shape != _NONE)
-    made = rows_that_made((each.way for each in kerf.swept), edges_of_part.cut_um, offset_um)
+    made = rows_that_made((each.way for each in kerf.swept), edges_of_part.cut_um, kerf.offset_um)
     edges_of_part = edges_of_part.picked(made == edges_of_part.row)
     return edges_of_part.picked(np.lexsort((edges_of_part.station, -edges_of_part.side, edges_of_part.row)))
 

@@ -156,7 +156,7 @@ def made_program(
     Raises FileUnreadableError and DrawingError where there is no drawing, SettingsError where the dialect cannot say
     what it needs.
     """
-    request = PlanRequest(path, making, scenario, progress)
+    request = PlanRequest(path, with_known_lag(making, wanted, scenario), scenario, progress)
     done = _proved(request, wanted)
     if isinstance(done, MadeProgram) and not done.is_proved and (numbers := _to_core(done)):
         request = request._replace(with_core=numbers)
@@ -169,6 +169,18 @@ def made_program(
         if isinstance(others, MadeProgram) and others.is_proved:
             return others
     return done
+
+
+def with_known_lag(making: Making, wanted: Wanted, scenario: Scenario) -> Making:
+    """What is asked for, with the lag that the technology knows of the last pass where nobody names another one.
+
+    Not where the lag cannot be corrected: where the controller adds the offsets, and for edges that parts have in
+    common.
+    """
+    adds = wanted.keeps or (making.passes_um and not any(making.passes_um))
+    if scenario.technology is None or making.lag_um or adds or making.common_edges:
+        return making
+    return making._replace(lag_um=scenario.lag_um(max(len(making.passes_um), 1)))
 
 
 def _to_core(done: MadeProgram) -> frozenset[int]:
@@ -204,7 +216,7 @@ def unproved(
 
     Arcs are fitted within the tolerance. Where whole µm move the written path past it, they are fitted anew, nearer.
     """
-    return _unproved(PlanRequest(path, making, scenario, progress), wanted)
+    return _unproved(PlanRequest(path, with_known_lag(making, wanted, scenario), scenario, progress), wanted)
 
 
 def _unproved(request: PlanRequest, wanted: Wanted) -> MadeProgram | NotMade:

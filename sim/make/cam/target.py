@@ -326,8 +326,10 @@ def least_um(figure: Figure, making: Making, reach_um: float) -> float:
 
 
 def as_run(scenario: Scenario, plan: CutPlan, toolpath: Toolpath) -> AsRun:
-    """How the program of a plan, whose path is read back as this one, is run."""
-    for_proof = replace(scenario, kerf=True, drawing=None, offset=None, quiz=(), expect=())
+    """How the program of a plan, whose path is read back as this one, is run: by a wire whose edge is the drawing's."""
+    for_proof = replace(
+        scenario, kerf=True, drawing=None, offset=None, quiz=(), expect=(), technology=None, material=None
+    )
     for_proof = replace(for_proof, start_mm=scenario.start_mm or middle_mm(toolpath, scenario.machine.table))
     if plan.making.lag_um:
         for_proof = replace(for_proof, wire=replace(scenario.wire, lag=plan.making.lag_um))

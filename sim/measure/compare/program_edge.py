@@ -112,8 +112,8 @@ def left_by_passes(passes: Sequence[PathPass], part_side: int, offset_um: float)
     with cut_by_blocks(*(int(end(each.block)) for end, each in ((np.min, passes[0]), (np.max, passes[-1])))):
         kerf = union_all(
             [
-                nominal_region(path_pass.curves, np.ones(len(path_pass.curves), np.bool_), offset_um)
-                for path_pass in passes
+                nominal_region(curves, np.ones(len(curves), np.bool_), np.full(len(curves), offset_um))
+                for curves in (path_pass.curves for path_pass in passes)
             ]
         )
     kerf = kerf.buffer(_SLIT_UM, join_style="mitre").buffer(-_SLIT_UM, join_style="mitre")

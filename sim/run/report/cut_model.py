@@ -117,17 +117,19 @@ class PieceEntry(TypedDict):
 
 
 class BoxEntry(TypedDict):
-    """Width and height of a part, a hole or an opening."""
+    """Width and height of a part, a hole or an opening, and between which they lie as the gap does."""
 
     what: Annotated[str, one_of("part", "hole", "opening")]
     piece: Ordinal | None
     center_um: Point
     cut_um: Point
     nominal_um: Point
+    least_um: Point
+    most_um: Point
 
 
 class RadiusEntry(TypedDict):
-    """Radius of a hole or a boss, and how far it is from round."""
+    """Radius of a hole or a boss, how far it is from round, and between which radii it lies by gap and form."""
 
     what: Annotated[str, one_of("hole", "boss")]
     block: Ordinal
@@ -135,15 +137,19 @@ class RadiusEntry(TypedDict):
     cut_um: float
     nominal_um: float
     form_um: Size
+    least_um: float
+    most_um: float
 
 
 class DistanceEntry(TypedDict):
-    """Distance of two parallel lines, across material or a slot."""
+    """Distance of two parallel lines, across material or a slot, and between which it lies as the gap does."""
 
     what: Annotated[str, one_of("material", "slot")]
     blocks: BlockRange
     cut_um: float
     nominal_um: float
+    least_um: float
+    most_um: float
 
 
 class SizesEntry(TypedDict):

@@ -44,18 +44,22 @@ from sim.run.report.model import (
     BlockEntry,
     CoverageEntry,
     FindingEntry,
+    GradedEntry,
     HeaderEntry,
     IntervalEntry,
     MachineEntry,
     NoHeaderEntry,
+    PassTechnologyEntry,
     ProgramEntry,
     ReportDocument,
     SteppedEntry,
     TableEntry,
+    TechnologyEntry,
     WireEntry,
 )
 from sim.run.report.run_model import ContourEntry, InterpolatorEntry, PassEntry, StockEntry, ThreadPointEntry
 from sim.setup.scenario import Scenario
+from sim.setup.technology import Figure, PassTechnology
 
 _CURVES = (None, "convex", "concave")
 
@@ -138,16 +142,16 @@ def _thread(threading: Threading, run: DryRun) -> ThreadPointEntry:
 
 def pass_entries(run: DryRun) -> list[PassEntry]:
     """All of ``passes[]``."""
-    return [_pass(figures, run.scenario.wire.reach_um) for figures in run.pass_figures]
+    return [_pass(figures) for figures in run.pass_figures]
 
 
-def _pass(figures: PassFigures, reach_um: float) -> PassEntry:
+def _pass(figures: PassFigures) -> PassEntry:
     pass_, worst = figures.of, figures.worst
     return {
         "contour": pass_.edge + 1,
         "number": pass_.number,
         "blocks": [pass_.first + 1, pass_.last + 1],
-        "offset_um": rounded(pass_.offset_um(reach_um)),
+        "offset_um": rounded(figures.offset_um),
         "direction": "back" if pass_.is_back else "forward",
         "cuts_tab": pass_.is_tab,
         "length_um": rounded(figures.length_um),
@@ -181,6 +185,7 @@ def build_report(run: DryRun) -> ReportDocument:
         "machine": _machine(scenario),
         "assumptions": _assumptions(run),
         "wire": _wire(scenario),
+        "technology": _technology(scenario),
         "work": {"thickness_mm": scenario.thickness_mm, "density_g_cm3": scenario.density_g_cm3},
         "offset": offset_entry(run),
         "summary": {
@@ -228,6 +233,36 @@ def _wire(scenario: Scenario) -> WireEntry:
         "spark_gap_um": rounded(scenario.wire.spark_gap_um),
         "kerf_um": rounded(scenario.wire.kerf_um),
         "lag_um": rounded(scenario.wire_lag_um),
+    }
+
+
+def _technology(scenario: Scenario) -> TechnologyEntry:
+    technology = scenario.technology
+    return {
+        "name": None if technology is None else technology.name,
+        "material": scenario.cut_material,
+        "passes": [_pass_technology(of_pass) for of_pass in scenario.pass_technologies],
+    }
+
+
+def _pass_technology(of_pass: PassTechnology) -> PassTechnologyEntry:
+    return {
+        "number": of_pass.number,
+        "gap_um": _graded(of_pass.gap_um),
+        "feed_mm_min": None if of_pass.feed_mm_min is None else _graded(of_pass.feed_mm_min),
+        "lag_um": None if of_pass.lag_um is None else _graded(of_pass.lag_um),
+        "offset_um": None if of_pass.offset_um is None else _graded(of_pass.offset_um),
+        "roughness_um": None if of_pass.roughness_um is None else _graded(of_pass.roughness_um),
+    }
+
+
+def _graded(figure: Figure) -> GradedEntry:
+    return {
+        "value": rounded(figure.value),
+        "least": rounded(figure.least),
+        "most": rounded(figure.most),
+        "grade": figure.grade,
+        "source": figure.source,
     }
 
 

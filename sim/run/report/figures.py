@@ -293,6 +293,8 @@ def _box(box: BoxSize) -> BoxEntry:
         "center_um": place(box.center_um),
         "cut_um": place(box.cut_um),
         "nominal_um": place(box.nominal_um),
+        "least_um": place(box.least_um),
+        "most_um": place(box.most_um),
     }
 
 
@@ -304,6 +306,8 @@ def _radius(radius: RadiusSize) -> RadiusEntry:
         "cut_um": rounded(radius.cut_um),
         "nominal_um": rounded(radius.nominal_um),
         "form_um": rounded(radius.form_um),
+        "least_um": rounded(radius.least_um),
+        "most_um": rounded(radius.most_um),
     }
 
 
@@ -313,6 +317,8 @@ def _distance(distance: DistanceSize) -> DistanceEntry:
         "blocks": list(distance.blocks),
         "cut_um": rounded(distance.cut_um),
         "nominal_um": rounded(distance.nominal_um),
+        "least_um": rounded(distance.least_um),
+        "most_um": rounded(distance.most_um),
     }
 
 

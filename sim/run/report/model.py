@@ -99,6 +99,35 @@ class WireEntry(TypedDict):
     lag_um: Size
 
 
+class GradedEntry(TypedDict):
+    """A figure with the interval that 90 % of cuts fall into, how it was come by, and where it stands."""
+
+    value: float
+    least: float
+    most: float
+    grade: Annotated[str, one_of("measured", "maker", "assumed")]
+    source: str
+
+
+class PassTechnologyEntry(TypedDict):
+    """What one pass does; null where nobody says."""
+
+    number: Ordinal
+    gap_um: GradedEntry
+    feed_mm_min: GradedEntry | None
+    lag_um: GradedEntry | None
+    offset_um: GradedEntry | None
+    roughness_um: GradedEntry | None
+
+
+class TechnologyEntry(TypedDict):
+    """What the wire does in the work, pass by pass; name and material null where no technology was named."""
+
+    name: str | None
+    material: str | None
+    passes: Annotated[list[PassTechnologyEntry], of_length(1)]
+
+
 class WorkEntry(TypedDict):
     """The work: thickness mm, density g/cm³."""
 
@@ -260,6 +289,7 @@ class ReportDocument(TypedDict):
     machine: MachineEntry
     assumptions: AssumptionsEntry
     wire: WireEntry
+    technology: TechnologyEntry
     work: WorkEntry
     offset: OffsetEntry | None
     summary: SummaryEntry

@@ -23,8 +23,8 @@ from sim.setup.part import (
     Offset,
     OffsetPass,
 )
-from sim.setup.scenario import DEFAULT_MACHINE, Scenario, load_scenario
-from sim.setup.settable import FIELDS, with_settings
+from sim.setup.scenario import DEFAULT_MACHINE, Scenario, load_scenario, with_values
+from sim.setup.settable import FIELDS
 from sim.setup.toml.keys import Key
 from sim.setup.toml.kinds import Number
 from sim.setup.toml.reader import Bound, number
@@ -50,7 +50,7 @@ def scenario_of(request: PageRequest, file: Path) -> Scenario:
         machine = machine_of(request["machine"], Path(files) if files else None)
         scenario = replace(scenario, machine=machine, machine_by_default=False)
     given = {key.name: _setting(request[form], key) for form, key in FIELDS.items() if request[form]}
-    scenario = with_settings(scenario, given)
+    scenario = with_values(scenario, given)
     if request["drawing_file"]:
         scenario = replace(scenario, drawing=DrawingTarget(Path(request["drawing_file"])))
     return replace(scenario, offset=_offset(request), kerf=True)

@@ -13,7 +13,7 @@ from sim.run.findings import outcome
 from sim.run.report.model import ReportDocument
 from sim.show.report_page.tables import reached
 from sim.show.texts import bilingual
-from sim.show.texts.phrases import by_no_cut, catalogued, lasting, listed, machine_name, numbered, same
+from sim.show.texts.phrases import by_no_cut, catalogued, lasting, listed, machine_name, numbered, same, technology_name
 
 _NONE = same("")
 
@@ -120,13 +120,23 @@ def _size(run: DryRun, report: ReportDocument) -> Iterator[Figure]:
             bilingual("report.card-time"), "time_s.total", total, lasting(total), note=bilingual("report.card-speeds")
         )
     else:
-        note = bilingual("report.time-note", unknown=by_no_cut(), work=work)
+        note = bilingual("report.time-note", unknown=_how_sure(run), work=work)
         yield Figure(bilingual("report.time"), "time_s.total", total, lasting(total), note=note)
     jumps, arcs = int(run.toolpath.is_jump.sum()), int(run.toolpath.is_arc.sum())
     kinds = numbered({"line": len(run.toolpath) - arcs - jumps, "arc": arcs, "jump": jumps})
     yield _figure("blocks", report, "summary.blocks")._replace(note=kinds)
     length = _figure("path-length", report, "summary.length_um", 3, 1000.0)
     yield length._replace(unit="mm", note=bilingual("report.jumps-included") if jumps else _NONE)
+
+
+def _how_sure(run: DryRun) -> Bilingual:
+    """How sure the time is: by the technology, else by no cut of the machine."""
+    technology, time_s = run.scenario.technology, run.time_s
+    if technology is None or time_s is None:
+        return by_no_cut()
+    level = round(100.0 * time_s.level)
+    least, most = lasting(time_s.least), lasting(time_s.most)
+    return bilingual("time.from-to", least=least, most=most, level=level, name=technology_name(technology))
 
 
 def _steps(report: ReportDocument) -> Figure:

@@ -27,7 +27,8 @@ from sim.setup.expectations import EXPECT, Expectation, wanted
 from sim.setup.key_words import title_of, value_word, words_of
 from sim.setup.machine.machine import Machine, machine_sections
 from sim.setup.quiz import QUIZ
-from sim.setup.scenario import MACHINE_FILE, Scenario, scenario_sections
+from sim.setup.scenario import MACHINE_FILE, TECHNOLOGY_FILE, Scenario, scenario_sections
+from sim.setup.technology import technology_sections
 from sim.setup.toml.keys import Key, Section, WrittenSection, toml_text, toml_value
 from sim.setup.toml.kinds import Keys, OneOf
 from sim.show.draw.style import DARK, Theme, hexadecimal
@@ -45,6 +46,7 @@ from sim.show.report_page.results import (
     limit_table,
     loss_table,
     pass_table,
+    technology_table,
 )
 from sim.show.report_page.sheet import MOST_THREADS, sheet_of, thread_table
 from sim.show.report_page.tables import (
@@ -177,10 +179,17 @@ def reproduction(run: DryRun) -> Reproduction:
         files=(
             ("scenario.toml", toml_text(scenario_sections(scenario))),
             (MACHINE_FILE, toml_text(machine_sections(scenario.machine))),
+            *_technology(scenario),
             *_own_dialect(scenario),
         ),
         versions=versions(),
     )
+
+
+def _technology(scenario: Scenario) -> tuple[tuple[str, str], ...]:
+    """The file of the technology, where there is one."""
+    technology = scenario.technology
+    return () if technology is None else ((TECHNOLOGY_FILE, toml_text(technology_sections(technology))),)
 
 
 def _own_dialect(scenario: Scenario) -> tuple[tuple[str, str], ...]:
@@ -252,6 +261,7 @@ def _tables(run: DryRun, report: ReportDocument) -> list[ReportTable]:
         *([thread_table(threads, names)] if len(threads) > MOST_THREADS else []),
         contour_table(run, report),
         *([pass_table(run, report)] if run.has_trims else []),
+        technology_table(report),
         deviation_table(run, report),
         cause_table(run, report),
         limit_table(run, report),

@@ -1,6 +1,6 @@
 """Tables of what a run came to: blocks, contours, deviations, limits and losses of the drives, checks."""
 
-from typing import Any, cast
+from typing import Any, Final, cast
 
 from parser.findings.catalogue import LANGUAGES, Bilingual
 from parser.shape.contours import Contour
@@ -8,6 +8,7 @@ from parser.text.source import BlockNames
 from sim.run.dryrun import DryRun
 from sim.run.report.model import ReportDocument
 from sim.run.report.run_model import CauseEntry, PassEntry
+from sim.setup.key_words import value_word
 from sim.show.report_page.findings import address
 from sim.show.report_page.tables import (
     Column,
@@ -18,6 +19,7 @@ from sim.show.report_page.tables import (
     micrometres,
     millimetres,
     named,
+    reached,
     timed,
     worded,
 )
@@ -112,6 +114,36 @@ def pass_table(run: DryRun, report: ReportDocument) -> ReportTable:
             micrometres("stock-most", column_of(entries, "stock_um.most"), digits=1),
             micrometres("stock-mean", column_of(entries, "stock_um.mean"), digits=1),
             micrometres("wire-off", column_of(entries, "deviation.max_um")),
+        ),
+    )
+
+
+_UNITS: Final = {"gap_um": "µm", "feed_mm_min": "mm/min", "lag_um": "µm", "offset_um": "µm", "roughness_um": "µm"}
+
+
+def technology_table(report: ReportDocument) -> ReportTable:
+    """What the technology says, or what is assumed: a row for each figure of each pass."""
+    rows = [
+        (of_pass["number"], name, figure)
+        for of_pass in report["technology"]["passes"]
+        for name, figure in ((name, reached(of_pass, name)) for name in _UNITS)
+        if figure is not None
+    ]
+    figures = [figure for _, _, figure in rows]
+    grades = column_of(figures, "grade")
+    words = {grade: value_word(grade) for grade in dict.fromkeys(grades)}
+    return ReportTable(
+        "technology",
+        (
+            counted("pass-number", [number for number, _, _ in rows]),
+            worded("figure", [name for _, name, _ in rows], "of"),
+            *(
+                Column(bilingual(f"report.{head}"), column_of(figures, key), digits=2)
+                for head, key in (("middle", "value"), ("at-least", "least"), ("at-most", "most"))
+            ),
+            named("unit", [_UNITS[name] for _, name, _ in rows]),
+            Column(bilingual("report.grade"), grades, "word", words=words),
+            named("source", column_of(figures, "source")),
         ),
     )
 

@@ -143,8 +143,8 @@ def _passes(report: ReportDocument) -> Bilingual:
 def _time(run: DryRun) -> Bilingual:
     jumping_s = float(run.block_time_s[run.toolpath.is_jump].sum())
     if not jumping_s:
-        return lasting_within(run.ran_s, run.time_s)
-    whole = lasting_within(run.ran_s, run.time_s)
+        return lasting_within(run.ran_s, run.time_s, run.scenario.technology)
+    whole = lasting_within(run.ran_s, run.time_s, run.scenario.technology)
     return bilingual("sheet.time-is", total=whole, cutting=lasting(run.ran_s - jumping_s))
 
 

@@ -199,7 +199,10 @@ def size_tables(sizes: SizesEntry, names: BlockNames) -> list[ReportTable]:
     """Widths, radii and distances of what is kept, as cut and nominal."""
     boxes, radii, distances = sizes["boxes"], sizes["radii"], sizes["distances"]
     return [
-        ReportTable("boxes", (*_of_what(boxes), counted("piece", column_of(boxes, "piece")), *_widths(boxes))),
+        ReportTable(
+            "boxes",
+            (*_of_what(boxes), counted("piece", column_of(boxes, "piece")), *_widths(boxes), _within(boxes, ".0")),
+        ),
         ReportTable(
             "radii",
             (
@@ -208,6 +211,7 @@ def size_tables(sizes: SizesEntry, names: BlockNames) -> list[ReportTable]:
                 millimetres("as-cut", column_of(radii, "cut_um")),
                 millimetres("nominal", column_of(radii, "nominal_um")),
                 _apart(radii),
+                _within(radii),
                 micrometres("form", column_of(radii, "form_um")),
             ),
         ),
@@ -220,6 +224,7 @@ def size_tables(sizes: SizesEntry, names: BlockNames) -> list[ReportTable]:
                 millimetres("as-cut", column_of(distances, "cut_um")),
                 millimetres("nominal", column_of(distances, "nominal_um")),
                 _apart(distances),
+                _within(distances),
             ),
         ),
     ]
@@ -266,6 +271,12 @@ def _widths(boxes: list[BoxEntry]) -> list[Column]:
         for at, axis in enumerate("xy")
         for head, key in (("as-cut", "cut_um"), ("nominal", "nominal_um"))
     ]
+
+
+def _within(entries: Sequence[BoxEntry | RadiusEntry | DistanceEntry], axis: str = "") -> Column:
+    """How far sizes as cut may be off, to the farther side."""
+    least, cut, most = (column_of(entries, f"{key}_um{axis}") for key in ("least", "cut", "most"))
+    return micrometres("within", [max(high - at, at - low) for low, at, high in zip(least, cut, most, strict=True)])
 
 
 def _apart(entries: Sequence[RadiusEntry | DistanceEntry]) -> Column:

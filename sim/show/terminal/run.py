@@ -21,14 +21,15 @@ from sim.measure.passes import PassFigures
 from sim.run.dryrun import DryRun
 from sim.run.findings import outcome
 from sim.setup.key_words import value_word
+from sim.setup.technology import PassTechnology, worst_grade
 from sim.show.refusals import taken_for_granted
 from sim.show.terminal.finding import finding_lines
 from sim.show.terminal.layout import paragraph, show, table
 from sim.show.terminal.printer import COLOURS, painted, say, styled
 from sim.show.terminal.streams import outlet
 from sim.show.terminal.wrap import width_of
-from sim.show.texts import Words
-from sim.show.texts.phrases import lasting, lasting_within, machine_name, numbered
+from sim.show.texts import Words, bilingual
+from sim.show.texts.phrases import lasting, lasting_within, listed, machine_name, numbered, technology_name
 from sim.table.losses import Peak
 
 _MOST_PIECES = 4
@@ -42,8 +43,7 @@ def pass_rows(run: DryRun, tell: Words) -> list[Row]:
     if not run.has_trims:
         return []
     among = Counter(figures.of.edge for figures in run.pass_figures)
-    reach_um = run.scenario.wire.reach_um
-    rows = [(_pass_name(figure.of, among, tell), _pass(figure, reach_um, tell)) for figure in run.pass_figures]
+    rows = [(_pass_name(figure.of, among, tell), _pass(figure, tell)) for figure in run.pass_figures]
     left = len(rows) - _MOST_PASSES
     return [*rows[:_MOST_PASSES], *([("", tell("summary.more-passes", n=left))] if left > 0 else [])]
 
@@ -55,12 +55,12 @@ def _pass_name(pass_: Pass, among: Counter[int], tell: Words) -> str:
     return tell("summary.pass", **counted)
 
 
-def _pass(figures: PassFigures, reach_um: float, tell: Words) -> str:
+def _pass(figures: PassFigures, tell: Words) -> str:
     pass_, stock = figures.of, figures.stock
     way = "tab-" * pass_.is_tab + ("back" if pass_.is_back else "forward")
     values = {
         "way": tell(f"summary.way-{way}"),
-        "offset": f"{pass_.offset_um(reach_um):,.0f}",
+        "offset": f"{figures.offset_um:,.0f}",
         "time": lasting(figures.time_s),
     }
     if stock is None:
@@ -185,18 +185,48 @@ def _work_rows(run: DryRun, tell: Words) -> list[Row]:
     jumps, arcs = int(toolpath.is_jump.sum()), int(toolpath.is_arc.sum())
     kinds = numbered({"line": len(toolpath) - arcs - jumps, "arc": arcs, "jump": jumps})
     wire, how = scenario.wire, value_word(scenario.machine.controller.interpolation)
-    widths = {"kerf": f"{mm(wire.kerf_um):g}", "wire": f"{mm(wire.diameter_um):g}", "gap": f"{wire.spark_gap_um:g}"}
-    time = tell("summary.time-of", time=lasting_within(run.ran_s, run.time_s), thickness=f"{scenario.thickness_mm:g}")
-    lag = [(tell("summary.wire-lag"), f"{scenario.wire_lag_um:g} µm")] if scenario.wire_lag_um else []
+    widths = {"kerf": f"{mm(wire.kerf_um):g}", "wire": f"{mm(wire.diameter_um):g}", "gap": f"{wire.spark_gap_um:.4g}"}
+    lasts = lasting_within(run.ran_s, run.time_s, scenario.technology)
+    time = tell("summary.time-of", time=lasts, thickness=f"{scenario.thickness_mm:g}")
+    lag = [(tell("summary.wire-lag"), f"{scenario.wire_lag_um:.4g} µm")] if scenario.wire_lag_um else []
     return [
         (tell("summary.machine"), getattr(machine_name(scenario.machine), tell.language)),
         (tell("summary.blocks"), tell("summary.blocks-of", number=f"{len(toolpath):,}", kinds=kinds)),
         (tell("summary.length"), f"{mm(run.ran_um):,.3f} mm"),
         (tell("summary.kerf"), tell("summary.kerf-of", **widths)),
         *lag,
+        *_technology(run, tell),
         (tell("summary.steps"), tell("summary.steps-of", number=f"{len(run.stepped):,}", how=how)),
         (tell("summary.time"), time),
     ]
+
+
+def _technology(run: DryRun, tell: Words) -> list[Row]:
+    """What the technology says of each pass that the program has; none without one."""
+    technology, material = run.scenario.technology, run.scenario.cut_material
+    if technology is None or material is None:
+        return []
+    most = max((pass_.number for pass_ in run.passes.passes), default=1)
+    known = [each for each in run.scenario.pass_technologies if each.number <= most]
+    rows = [(tell("summary.technology-pass", number=each.number), _of_pass(each, tell)) for each in known]
+    if known and most > known[-1].number:
+        rows[-1] = (tell("summary.technology-later", number=known[-1].number), rows[-1][1])
+    name = getattr(technology_name(technology), tell.language)
+    return [(tell("summary.technology"), tell("summary.technology-of", name=name, material=material)), *rows]
+
+
+def _of_pass(of_pass: PassTechnology, tell: Words) -> str:
+    """Gap, feed and lag of a pass with their intervals, and the worst of their grades."""
+    of = {"gap": (of_pass.gap_um, "µm"), "feed": (of_pass.feed_mm_min, "mm/min"), "lag": (of_pass.lag_um, "µm")}
+    figures = {name: (figure, unit) for name, (figure, unit) in of.items() if figure is not None}
+    said = [
+        bilingual(
+            f"summary.{name}-within", value=f"{at.value:.3g}", least=f"{at.least:.3g}", most=f"{at.most:.3g}", unit=unit
+        )
+        for name, (at, unit) in figures.items()
+    ]
+    text: str = getattr(listed([*said, value_word(worst_grade(at.grade for at, _ in figures.values()))]), tell.language)
+    return text
 
 
 def _times(run: DryRun, tell: Words) -> list[Row]:

@@ -13,6 +13,7 @@ from sim.show.texts.texts import bilingual
 
 if TYPE_CHECKING:
     from sim.setup.machine.machine import Machine
+    from sim.setup.technology import Technology
 
 _UNITS_OF_TIME = {" h": "phrases.hours", " min": "phrases.minutes", " s": "phrases.seconds"}
 
@@ -66,9 +67,15 @@ def lasting(seconds: float) -> Bilingual:
     return Bilingual(english, chinese)
 
 
-def lasting_within(ran_s: float, time_s: Interval | None) -> Bilingual:
+def lasting_within(ran_s: float, time_s: Interval | None, technology: "Technology | None") -> Bilingual:
     """How long a run takes, with its interval; without one where a program for the card set its own speeds."""
-    return lasting(ran_s) if time_s is None else with_interval(time_s, 0)
+    if time_s is None:
+        return lasting(ran_s)
+    if technology is None:
+        return with_interval(time_s, 0)
+    least, middle, most = map(lasting, time_s[:3])
+    level, name = round(100.0 * time_s.level), technology_name(technology)
+    return bilingual("time.by-technology", middle=middle, least=least, most=most, level=level, name=name)
 
 
 def by_no_cut() -> Bilingual:
@@ -91,6 +98,11 @@ def counted_pass(pass_: Pass, among: int) -> Bilingual:
     way = bilingual("phrases.back" if pass_.is_back else "phrases.forward")
     key = "phrases.counted-tab" if pass_.is_tab else "phrases.counted-pass"
     return bilingual(key, number=pass_.number, among=among, way=way)
+
+
+def technology_name(technology: "Technology") -> Bilingual:
+    """Name of a technology, in Chinese where its file has one."""
+    return Bilingual(technology.name, technology.name_zh or technology.name)
 
 
 def machine_name(machine: "Machine") -> Bilingual:

@@ -61,7 +61,7 @@ def test_a_slot_has_the_area_of_a_rectangle_and_two_half_discs():
 def test_the_kerf_does_not_depend_on_how_densely_the_trace_is_sampled(spacing):
     path = Pen().to(3000, 1000).to(500, 2500).path()
     region = kerf_along(path, trace_of(path, spacing)).region_um
-    assert alike(region, nominal_region(path, ~path.is_jump, F), 0.05)
+    assert alike(region, nominal_region(path, ~path.is_jump, np.full(len(path), F)), 0.05)
 
 
 def test_a_wire_that_waits_removes_no_more():
@@ -167,17 +167,21 @@ def test_a_circle_of_two_turns_is_cut_once():
 
 def test_the_nominal_kerf_is_that_of_a_wire_on_the_ideal_path():
     path = Pen().to(2000, 500).arc(1500, 1000, 2.0).arc(pen_x := 900, 2000, -4.0).to(pen_x, 5000).path()
-    assert alike(nominal_region(path, ~path.is_jump, F), kerf_along(path, trace_of(path, 2.0)).region_um, 0.06)
+    assert alike(
+        nominal_region(path, ~path.is_jump, np.full(len(path), F)),
+        kerf_along(path, trace_of(path, 2.0)).region_um,
+        0.06,
+    )
 
 
 def test_arcs_within_the_offset_are_cut_to_their_middle():
     path = Pen().to(500, 0).arc(500, 60, math.pi).to(0, 120).path()
-    region = nominal_region(path, ~path.is_jump, F)
+    region = nominal_region(path, ~path.is_jump, np.full(len(path), F))
     assert alike(region, union_of_discs(trace_of(path, 1.0), F), 0.06)
     assert sum(shapely.Polygon(ring).area for ring in region.interiors) < 0.1
 
 
 def test_contours_keep_their_own_kerfs():
     path = Pen().to(1000, 0).jump(3000, 0).to(4000, 0).path()
-    kerf = kerf_of(path, trace_of(path), contours_of(path), F)
+    kerf = kerf_of(path, trace_of(path), contours_of(path), np.full(len(path), F))
     assert [one.region_um.area for one in kerf.swept] == pytest.approx([2 * F * 1000 + math.pi * F**2] * 2, rel=1e-4)

@@ -71,9 +71,9 @@ def test_places_near_a_piece_are_found_by_the_chords_of_their_stretches(path):
 def test_what_is_kept_has_the_sizes_near_it_that_it_has_in_all_of_the_stock(path, monkeypatch):
     kerf = kerf_along(path, trace_of(path, stray=lambda place, row: place * 1.001))
     pieces = pieces_of(kerf, None, STEEL)
-    near = sizes_of(path, kerf, pieces, None)
+    near = sizes_of(path, kerf, pieces, None, np.zeros((len(path), 2)))
     monkeypatch.setattr(sizes, "_BESIDE", 1e6)
-    whole = sizes_of(path, kerf, pieces, None)
+    whole = sizes_of(path, kerf, pieces, None, np.zeros((len(path), 2)))
     assert len(near.boxes) > 3
     assert near.radii == whole.radii
     assert near.distances == whole.distances
@@ -84,7 +84,7 @@ def test_what_is_kept_has_the_sizes_near_it_that_it_has_in_all_of_the_stock(path
 def test_a_part_that_the_ideal_path_leaves_hanging_is_asked_for_in_all_of_the_stock():
     path = Pen(-1000, 0).to(0, 0).to(2000, 0).to(2000, 2000).to(0, 2000).to(0, 300).path()
     kerf = kerf_along(path, trace_of(path, stray=lambda place, row: place - (0.0, 150.0) * (row == 4)[:, None]))
-    (box,) = sizes_of(path, kerf, pieces_of(kerf, None, STEEL), None).boxes
+    (box,) = sizes_of(path, kerf, pieces_of(kerf, None, STEEL), None, np.zeros((len(path), 2))).boxes
     assert max(box.cut_um) < 1820.0
     assert min(box.nominal_um) > 2000.0
 
@@ -92,7 +92,7 @@ def test_a_part_that_the_ideal_path_leaves_hanging_is_asked_for_in_all_of_the_st
 def test_a_slight_turn_leaves_no_notch_in_the_nominal_kerf():
     for turn in (0.0, 1e-12, 1e-6, -1e-6, 1e-3, 0.05, -0.3):
         path = Pen(0, 0).to(500, 0).to(500 + 500 * math.cos(turn), 500 * math.sin(turn)).path()
-        kerf = nominal_region(path, ~path.is_jump, F)
+        kerf = nominal_region(path, ~path.is_jump, np.full(len(path), F))
         outer = 2.0 * F * 1000.0 + math.pi * F * F + abs(turn) / 2.0 * F * F - math.tan(abs(turn) / 2.0) * F * F
         assert kerf.is_valid
         assert kerf.area == pytest.approx(outer, abs=5.0)

@@ -32,7 +32,7 @@ def turn(pen: Pen, by: float, *, back: bool = False) -> Pen:
 def left_by(path: Toolpath, stray=exactly) -> tuple[Pieces, Sizes]:
     kerf = kerf_along(path, trace_of(path, stray=stray))
     pieces = pieces_of(kerf, None, STEEL)
-    return pieces, sizes_of(path, kerf, pieces, None)
+    return pieces, sizes_of(path, kerf, pieces, None, np.zeros((len(path), 2)))
 
 
 def die(*offsets: float, between: str = "contour", back: bool = False) -> Toolpath:
@@ -122,7 +122,7 @@ def test_where_a_trim_is_missing_no_size_of_the_rough_edge_is_told():
     cut = trace.until(float(trace.t_s[np.searchsorted(trace.row, LOOP + 1)]) - 1e-6)
     kerf = kerf_along(path, cut)
     pieces = pieces_of(kerf, None, STEEL)
-    sizes = sizes_of(path, kerf, pieces, None)
+    sizes = sizes_of(path, kerf, pieces, None, np.zeros((len(path), 2)))
     (box,) = sizes.boxes
     assert np.subtract(box.cut_um, box.nominal_um) == pytest.approx((-120.0, -120.0), abs=0.2)
     assert (sizes.radii, sizes.distances) == ((), ())

@@ -21,10 +21,10 @@ COUNTED_UM = 10.0  # a trim that takes less of a loose piece runs along its own 
 def cut(made: RoughAndTrim) -> tuple[Pieces, Sizes]:
     path = parse_program(made.text).toolpath
     trace = trace_of(path, 5.0, lambda place, row: np.rint(place))
-    kerf = kerf_of(path, trace, contours_of(path), REACH_UM)
+    kerf = kerf_of(path, trace, contours_of(path), np.full(len(path), REACH_UM))
     pauses = [stop.after for stop in path.stops if stop.kind == "pause"]
     pieces = pieces_of(kerf, None, STEEL, pauses)
-    return pieces, sizes_of(path, kerf, pieces, None)
+    return pieces, sizes_of(path, kerf, pieces, None, np.zeros((len(path), 2)))
 
 
 def radii_of(figure: Figure) -> list[float]:

@@ -18,7 +18,7 @@ from sim.cut.sizes import Sizes, fitted_circles, sizes_of
 
 def sizes(path: Toolpath, stray=exactly) -> Sizes:
     kerf = kerf_along(path, trace_of(path, stray=stray))
-    return sizes_of(path, kerf, pieces_of(kerf, None, STEEL), None)
+    return sizes_of(path, kerf, pieces_of(kerf, None, STEEL), None, np.zeros((len(path), 2)))
 
 
 def round_hole(radius: float) -> Toolpath:
@@ -174,8 +174,8 @@ def test_circles_are_found_from_places_on_parts_of_them():
 
 def test_the_play_of_a_table_shows_in_the_size_of_its_square():
     run = scenario_run("backlash")
-    kerf = kerf_of(run.toolpath, run.trace, run.contours, run.scenario.wire.reach_um)
-    found = sizes_of(run.toolpath, kerf, pieces_of(kerf, None, STEEL), None)
+    kerf = kerf_of(run.toolpath, run.trace, run.contours, np.full(len(run.toolpath), run.scenario.wire.reach_um))
+    found = sizes_of(run.toolpath, kerf, pieces_of(kerf, None, STEEL), None, np.zeros((len(run.toolpath), 2)))
     # The first side is cut on its line, the three others 5.13 to 5.16 µm off theirs: the part is small by that.
     assert [size.cut_um - size.nominal_um for size in found.distances] == pytest.approx([-5.2, -10.3], abs=0.1)
 

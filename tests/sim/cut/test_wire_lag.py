@@ -32,7 +32,7 @@ def trace_of(guides: np.ndarray, row: np.ndarray | None = None) -> Trace:
 
 
 def wire_of(guides: np.ndarray, lag: float, path: Toolpath = LINE, row: np.ndarray | None = None) -> np.ndarray:
-    return bowed(trace_of(np.asarray(guides, dtype=float), row), path, lag).wire_um
+    return bowed(trace_of(np.asarray(guides, dtype=float), row), path, np.full(len(path), lag)).wire_um
 
 
 def polyline(*corners: tuple[float, float], spacing: float) -> np.ndarray:
@@ -63,7 +63,7 @@ def dragged(guides: np.ndarray, cuts: np.ndarray, lag: float, step: float) -> np
 
 def test_without_lag_nothing_changes() -> None:
     trace = trace_of(np.zeros((3, 2)))
-    assert bowed(trace, LINE, 0.0) is trace
+    assert bowed(trace, LINE, np.zeros(len(LINE))) is trace
 
 
 def test_straight_on_the_wire_waits_for_the_lag_and_then_follows_on_the_line() -> None:

@@ -60,7 +60,7 @@ def test_parallel_passes_take_off_the_difference_of_their_offsets(sign: float, w
     offsets = [160.0, 120.0, 100.0]
     path = laid(*(ring(sign * by, is_back=back) for by, back in zip(offsets, way, strict=True)))
     to_part = [int(sign) * (-1 if back else 1) for back in way]  # rings run counter-clockwise
-    found = stocks_of(path, passes_of(to_part), taken(path), REACH_UM)
+    found = stocks_of(path, passes_of(to_part), taken(path), np.full(len(path), REACH_UM))
     for stock, thick in zip(found, [2.0 * REACH_UM, 40.0, 20.0], strict=True):
         assert stock == pytest.approx((thick, thick, thick), abs=1e-6)
 
@@ -69,8 +69,12 @@ def test_the_stock_is_taken_from_where_the_wires_really_were() -> None:
     path = laid(ring(40.0), ring(0.0))
     rough_off = taken(path, dict.fromkeys(range(8), 3.0))  # to the left: nearer to the part inside
     trim_off = taken(path, dict.fromkeys(range(8, 16), 2.0))
-    assert stocks_of(path, passes_of([1, 1]), rough_off, REACH_UM)[1] == pytest.approx((37.0,) * 3, abs=1e-6)
-    assert stocks_of(path, passes_of([1, 1]), trim_off, REACH_UM)[1] == pytest.approx((42.0,) * 3, abs=1e-6)
+    assert stocks_of(path, passes_of([1, 1]), rough_off, np.full(len(path), REACH_UM))[1] == pytest.approx(
+        (37.0,) * 3, abs=1e-6
+    )
+    assert stocks_of(path, passes_of([1, 1]), trim_off, np.full(len(path), REACH_UM))[1] == pytest.approx(
+        (42.0,) * 3, abs=1e-6
+    )
 
 
 @pytest.mark.parametrize(
@@ -87,17 +91,17 @@ def test_a_pass_takes_no_less_than_nothing_and_no_more_than_its_kerf(
     second_um: float, side: int, thick_um: float
 ) -> None:
     path = laid(ring(40.0), ring(second_um))
-    stock = stocks_of(path, passes_of([side, side]), taken(path), REACH_UM)[1]
+    stock = stocks_of(path, passes_of([side, side]), taken(path), np.full(len(path), REACH_UM))[1]
     assert stock == pytest.approx((thick_um,) * 3, abs=1e-6)
 
 
 def test_other_edges_and_passes_that_the_wire_did_not_come_to_do_not_count() -> None:
     path = laid(ring(40.0), ring(0.0))
     way, (rough, trim) = taken(path), passes_of([1, 1])
-    other = stocks_of(path, [rough, trim._replace(edge=1)], way, REACH_UM)[1]
+    other = stocks_of(path, [rough, trim._replace(edge=1)], way, np.full(len(path), REACH_UM))[1]
     assert other == pytest.approx((200.0,) * 3)
     short = WireTaken(*(column[way.row < 8] for column in way))
-    assert stocks_of(path, [rough, trim], short, REACH_UM) == [pytest.approx((200.0,) * 3), None]
+    assert stocks_of(path, [rough, trim], short, np.full(len(path), REACH_UM)) == [pytest.approx((200.0,) * 3), None]
 
 
 @pytest.mark.parametrize("seed", range(6))
@@ -105,7 +109,7 @@ def test_the_stock_is_the_area_that_a_pass_removes_over_its_length(seed: int) ->
     made = rough_and_trim(random.Random(seed), most_um=6000.0)
     path = parse_program(made.text).toolpath
     way = taken(path)
-    found = stocks_of(path, find_passes(path).passes, way, REACH_UM)
+    found = stocks_of(path, find_passes(path).passes, way, np.full(len(path), REACH_UM))
     for one, stock in zip(made.passes, found, strict=True):
         before = [other for other in made.passes if (other.edge, other.number) == (one.edge, one.number - 1)]
         if one.is_tab or not before:

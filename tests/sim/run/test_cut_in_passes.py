@@ -140,8 +140,8 @@ def test_times_add_up_and_each_pass_has_its_feed() -> None:
         OffsetPass(120.0, "back", area_rate_mm2_min=60.0),
         OffsetPass(100.0, "back", feed_um_s=1000.0),
     )
-    feeds = [plain_scenario().pass_feed_um_s(one) for one in asked]
-    assert feeds == [50.0, 25.0, 180.0]
+    feeds = plain_scenario(offset=Offset(asked, Side.RIGHT)).pass_feeds_um_s
+    assert feeds == (50.0, 25.0, 180.0)
     whole, *alone = (
         prepare(parse_program(SQUARE + "DD"), plain_scenario(offset=Offset(tuple(of), Side.RIGHT)))
         for of in (asked, *([one._replace(direction="same")] for one in asked))

@@ -13,7 +13,7 @@ from places import MACHINES, ROOT
 from parser.findings.catalogue import Bilingual
 from parser.findings.errors import SettingsError
 from parser.program import load_program
-from sim.setup import limits, shop
+from sim.setup import limits, shop, technology
 from sim.setup import scenario as scenarios
 from sim.setup import wire as wires
 from sim.setup.key_tables import renewed
@@ -136,7 +136,7 @@ def test_a_shipped_machine_is_read_from_what_it_is_written_as(name: str, tmp_pat
 
 
 def test_every_key_has_words_and_all_words_have_a_key() -> None:
-    sections = (*SECTIONS, *shop.SECTIONS, *limits.SECTIONS)
+    sections = (*SECTIONS, *shop.SECTIONS, *limits.SECTIONS, *technology.SECTIONS)
     told = {(section, key) for section, keys in words()["keys"].items() for key in keys}
     assert told == {(section.name, key.name) for section in sections for key in section.keys}
     chosen = [key.kind for section in sections if section is not QUIZ for key in section.keys]

@@ -117,7 +117,9 @@ def test_sizes_are_those_of_what_is_kept(cut: Cut, texts: list[str]) -> None:
 @pytest.mark.parametrize("path", [punch(7123.4), die(6543.0), rounded(1500.0), hole(2345.0)])
 def test_sizes_of_the_path_are_those_worked_out_from_the_kerf(path: Toolpath) -> None:
     kerf = kerf_along(path)
-    measured = sizes_of_cut(cut_of(path, sizes=sizes_of(path, kerf, pieces_along(path), None)))
+    measured = sizes_of_cut(
+        cut_of(path, sizes=sizes_of(path, kerf, pieces_along(path), None, np.zeros((len(path), 2))))
+    )
     plain = sizes_of_cut(cut_of(path))
     assert measured.box_um == pytest.approx(plain.box_um, abs=0.1)
     say = recording_sheet().say

@@ -139,7 +139,7 @@ def test_the_list_fits() -> None:
     for language in LANGUAGES:
         out = told("--lang", language)
         assert max(map(cells, out.splitlines())) <= 80
-        assert f"\n    3b         {title('3b', language)}\n" in out
+        assert re.search(rf"\n    3b +{re.escape(title('3b', language))}\n", out)
 
 
 def test_lists_tables_and_chinese_keep_their_form() -> None:

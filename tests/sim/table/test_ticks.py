@@ -62,7 +62,7 @@ def test_behind_a_corner_samples_show_how_far_a_wire_that_lags_cuts_it_off(lag_u
     along = np.append(0.0, plan.at(ticks.t_s).along_um)
     guides = np.stack([np.minimum(along, 3000.0), np.maximum(along - 3000.0, 0.0)], axis=1)
     trace = Trace(np.append(0.0, ticks.t_s), guides, guides, guides, np.append(0, ticks.row))
-    wire = bowed(trace, toolpath, lag_um).wire_um
+    wire = bowed(trace, toolpath, np.full(len(toolpath), lag_um)).wire_um
     off = np.minimum(np.abs(wire[:, 1]), np.abs(wire[:, 0] - 3000.0)).max()
     assert off == pytest.approx(0.482 * lag_um, rel=2e-3)
     assert len(ticks.t_s) < len(choose_ticks(toolpath, plan, BEATS, Sampling(5.0)).t_s) + 201

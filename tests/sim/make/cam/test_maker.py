@@ -15,6 +15,7 @@ from sim.make.cam.document import figure_sums
 from sim.make.cam.maker import MadeProgram, NotMade, made_program, remarked, unproved
 from sim.make.wanted import Wanted
 from sim.setup.making import LayerWish, Making
+from sim.setup.technology import Cut, Technology
 
 TO_3B = Wanted("3b")
 TO_ISO = Wanted("iso", iso_choices("fast-wire"))
@@ -54,6 +55,20 @@ def test_stages_are_told_in_their_order(path: Path) -> None:
     assert done.proof is not None
     assert done.proof.verdict == "pass"
     assert stages == ["drawing", "figures", "write", "checks", "plan", "run", "kerf", "comparison"]
+
+
+@pytest.mark.parametrize("asked", [0.0, 12.0])
+def test_the_lag_of_the_technology_is_corrected_where_no_other_is_named(path: Path, asked: float) -> None:
+    """The lag is that of the pass that makes the edge; a straight wire's program would be cut off at each corner."""
+    row = Cut("steel", 180.0, 40.0, 1, 12.0, None, 2.0, None, None, 25.0, None, None, None, None, None)
+    knows = Technology("test", "measured", "here", (row, row._replace(number=2, gap_um=8.0, lag_um=18.0)))
+    scenario = plain_scenario(technology=knows)
+    for passes_um, lag_um in (((), 25.0), ((130.0, 98.0), 18.0)):
+        making = Making(passes_um=passes_um, lag_um=asked, tab_um=2500.0)
+        done = made_program(path, making, TO_3B, scenario)
+        assert isinstance(done, MadeProgram)
+        assert done.plan.making.lag_um == (asked or lag_um)
+        assert done.is_proved
 
 
 def test_the_same_drawing_gives_the_same_bytes(path: Path) -> None:
