@@ -5,7 +5,7 @@ Passes over each edge of a run, and what each came to.
 What a run leaves, worked out as far as its scenario asks: kerf, pieces and sizes, and the cut beside its drawing.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -15,21 +15,22 @@ from controller.motion.limits import Feeds
 from controller.stepping.pulses import Pulses
 from parser.dialect.reader import in_codes
 from parser.drawing.model import Drawing
-from parser.findings.findings import Finding, file_order
+from parser.findings.findings import Finding, WithoutOffset, file_order, telling
 from parser.program import Program
 from parser.shape.contours import Contour, find_contours
-from parser.shape.passes import find_passes
+from parser.shape.passes import Pass, find_passes
 from sim.base.progress import Progress, silent
 from sim.check.result import CheckState
 from sim.cut.findings import missed_work_findings, obstacle_findings, piece_findings, region_finding
 from sim.cut.regions import RegionError
 from sim.cut.remains import Remains, remains_of
 from sim.cut.wire_lag import bowed
-from sim.cut.wire_rows import wire_rows
+from sim.cut.wire_rows import WireRows, wire_rows
 from sim.measure.causes import Meters
 from sim.measure.compare.findings import compare_cut, drawing_findings
 from sim.measure.compare.result import Comparison
-from sim.measure.passes import figures_of_passes, wire_taken
+from sim.measure.kerf_fit import offset_findings, tolerance_findings
+from sim.measure.passes import PassFigures, figures_of_passes, wire_taken
 from sim.run.dryrun import DryRun, Ending, PulseSink, motion_to_end, trip_of
 from sim.run.prepare import Prepared, prepare
 from sim.setup.part import DrawingTarget
@@ -165,6 +166,7 @@ def run_along(
     block_time_s = np.diff(np.minimum(border_s, ended.t_s if ended else plan.duration_s))
     figures = figures_of_passes(toolpath, passes, block_time_s, wire_taken(toolpath, plan, cut), wire.reach_um)
     left = left_of(program, cut, contours, scenario, drawing, progress, is_whole=ended is None, measured=measured)
+    fits = () if scenario.technology is None else tuple(_fits(ready, scenario, figures, wire, left.comparison))
     return DryRun(
         program=program,
         scenario=scenario,
@@ -184,10 +186,33 @@ def run_along(
         border_s=border_s,
         remains=left.remains,
         comparison=left.comparison,
-        findings=_in_order(ready, [*_met(program, scenario, moved, trace, contours), *left.findings]),
+        findings=_in_order(ready, [*_met(program, scenario, moved, trace, contours), *left.findings, *fits]),
         checked=ready.findings,
         coverage=ready.coverage._replace(checks=(*ready.coverage.checks, left.state)),
     )
+
+
+def _fits(
+    ready: Prepared,
+    scenario: Scenario,
+    figures: Sequence[PassFigures],
+    wire: WireRows,
+    comparison: Comparison | None,
+) -> Iterator[Finding]:
+    """Findings on offsets, trims and a tolerance that do not fit the kerfs that the technology says."""
+    program, passes = ready.program, () if scenario.offset is None else scenario.offset.passes
+    without, of_header = any(telling(ready.findings, WithoutOffset)), program.header.get("offset_um")
+    header_um = of_header if isinstance(of_header, float) and not without else None
+
+    def offset_of(pass_: Pass) -> float | None:
+        if pass_.told_um is not None:
+            return pass_.told_um
+        return passes[min(pass_.number, len(passes)) - 1].by_um if passes else header_um
+
+    yield from offset_findings(program, figures, wire.reach_um, wire.spread_um, offset_of)
+    if comparison is not None:
+        last = [each.of.first for each in figures if each.of.shift_um <= each.of.edge_um]
+        yield from tolerance_findings(program, comparison, float(np.abs(wire.spread_um[last]).max(initial=0.0)))
 
 
 def _in_order(ready: Prepared, found: list[Finding]) -> tuple[Finding, ...]:

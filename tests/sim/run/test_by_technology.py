@@ -1,10 +1,12 @@
 """A run by a technology: each pass cuts as wide, as fast and with as much lag as its figures say, within their ±."""
 
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 import pytest
 import shapely
+from drawings_dxf import drawn
 from report_schema import complaints
 from runs import plain_scenario, run_text
 
@@ -13,7 +15,7 @@ from parser.geometry.along import outline
 from parser.shape.passes import find_passes, pass_numbers
 from sim.run.dryrun import DryRun
 from sim.run.report import build_report
-from sim.setup.part import Offset, OffsetPass
+from sim.setup.part import DrawingTarget, Offset, OffsetPass
 from sim.setup.technology import Cut, Technology
 
 SQUARE = """B0B2000B2000GYL2 B2000B0B2000GXL1 B0B4000B4000GYL2 B4000B0B4000GXL3 B0B4000B4000GYL4 B2000B0B2000GXL1
@@ -124,6 +126,41 @@ def test_the_wire_lags_in_the_passes_that_have_a_lag() -> None:
     for other in worst[1:]:
         assert other is not None
         assert other.deviation_um < 4.0
+
+
+@pytest.mark.parametrize(
+    ("gaps_um", "expected"),
+    [
+        ((16.0, 12.0, 10.0), []),  # the last reaches 100 µm, as its offset
+        ((16.0, 12.0, 10.9), []),  # within ± 1 µm of it
+        ((16.0, 12.0, 11.1), ["3B607"]),
+        ((16.0, 12.0, 8.9), ["3B607"]),
+        ((70.0, 12.0, 10.0), ["3B608", "3B608"]),  # the first reaches past what both trims would take
+    ],
+)
+def test_offsets_and_trims_that_do_not_fit_their_kerfs_are_told(
+    gaps_um: tuple[float, float, float], expected: list[str]
+) -> None:
+    gaps = zip(technology().cuts, gaps_um, strict=True)
+    run = trimmed(
+        technology=technology()._replace(cuts=tuple(cut._replace(gap_um=gap) for cut, gap in gaps)), kerf=False
+    )
+    assert [finding.code for finding in run.findings if finding.code[:3] == "3B6"] == expected
+
+
+@pytest.mark.parametrize(("within_um", "expected"), [(1.0, []), (3.9, ["3B606"])])
+def test_a_tolerance_that_holds_at_the_middle_of_the_gap_alone_is_told(
+    tmp_path: Path, within_um: float, expected: list[str]
+) -> None:
+    """Off the drawing by less than 2 µm, and by as much more as the gap may be wider: 5 µm are allowed."""
+    knows = technology()
+    last = knows.cuts[2]._replace(gap_um=10.0, gap_within_um=within_um)
+    drawing = DrawingTarget(
+        drawn(tmp_path, lambda space: space.add_lwpolyline([(-2, 2), (2, 2), (2, 6), (-2, 6)], close=True)), fit=False
+    )
+    run = trimmed(technology=knows._replace(cuts=(*knows.cuts[:2], last)), drawing=drawing)
+    assert run.comparison is not None
+    assert [finding.code for finding in run.findings if finding.code[:3] == "3B6"] == expected
 
 
 def test_the_report_says_the_technology_and_keeps_its_schema(run: DryRun) -> None:
