@@ -4,7 +4,8 @@ import json
 from typing import Annotated, Literal, TypedDict
 
 from parser import __version__
-from parser.documents import Document, Size, Text, Version, one_of
+from parser.documents import Count, Document, Size, Text, Version, one_of
+from sim.measure.accept.gap import MeasuredGap
 from sim.measure.accept.judge import Judged, Judgement
 from sim.measure.fit.model import Say
 
@@ -38,6 +39,15 @@ class CauseEntry(TypedDict):
     text: Text
 
 
+class GapEntry(TypedDict):
+    """The spark gap that the piece tells, with its 95 % interval, and of how many sizes."""
+
+    value_um: float
+    least_um: float
+    most_um: float
+    sizes: Count
+
+
 class AcceptDocument(TypedDict):
     """A measured piece by its limits."""
 
@@ -49,13 +59,14 @@ class AcceptDocument(TypedDict):
     missing: list[Text]
     without_limits: list[Text]
     causes: list[CauseEntry]
+    gap: GapEntry | None
 
 
 ACCEPT = Document(AcceptDocument, "docs/accept.md")
 
 
-def document(file: str, of: Judgement, say: Say) -> AcceptDocument:
-    """A judgement as plain lists, dicts, numbers and None; `say` has the texts of keys."""
+def document(file: str, of: Judgement, gap: MeasuredGap | None, say: Say) -> AcceptDocument:
+    """A judgement, and the gap if it was asked for, as plain lists, dicts, numbers and None; `say` has texts."""
     return {
         "schema": "drycut.accept/1",
         "drycut": __version__,
@@ -74,12 +85,22 @@ def document(file: str, of: Judgement, say: Say) -> AcceptDocument:
             }
             for cause in of.causes
         ],
+        "gap": None if gap is None else _gap(gap),
     }
 
 
-def document_text(file: str, of: Judgement, say: Say) -> str:
+def _gap(gap: MeasuredGap) -> GapEntry:
+    return {
+        "value_um": _rounded(gap.gap_um),
+        "least_um": _rounded(gap.gap_um - gap.by_um),
+        "most_um": _rounded(gap.gap_um + gap.by_um),
+        "sizes": gap.sizes,
+    }
+
+
+def document_text(file: str, of: Judgement, gap: MeasuredGap | None, say: Say) -> str:
     """The document as JSON."""
-    return json.dumps(document(file, of, say), ensure_ascii=False, allow_nan=False, indent=2) + "\n"
+    return json.dumps(document(file, of, gap, say), ensure_ascii=False, allow_nan=False, indent=2) + "\n"
 
 
 def _entry(each: Judged) -> CharacteristicEntry:

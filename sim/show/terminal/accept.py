@@ -2,6 +2,7 @@
 
 from parser.findings.catalogue import Language
 from parser.units import mm
+from sim.measure.accept.gap import MeasuredGap
 from sim.measure.accept.judge import Judged, Judgement
 from sim.show.terminal.layout import paragraph, show, table
 from sim.show.texts import Words
@@ -9,8 +10,8 @@ from sim.show.texts import Words
 _STYLES = {"pass": "bold green", "to-check": "bold yellow", "incomplete": "bold yellow", "fail": "bold red"}
 
 
-def print_judgement(of: Judgement, language: Language) -> None:
-    """Print a judgement to stdout."""
+def print_judgement(of: Judgement, gap: MeasuredGap | None, language: Language) -> None:
+    """Print a judgement to stdout, and the gap if it was asked for."""
     tell = Words(language)
     heads = tuple(tell(f"accept.head-{name}") for name in ("feature", "z", "value", "deviation", "limits", "verdict"))
     rows = table(tell("accept.title"), heads, (1, 2, 3))
@@ -20,6 +21,9 @@ def print_judgement(of: Judgement, language: Language) -> None:
     for cause in of.causes:
         by = f"{cause.value_um:+.1f} ± {cause.by_um:.1f} µm".replace("-", "−")
         paragraph(tell("accept.cause", by=by, text=tell(f"accept.cause-{cause.name}")), "cyan")
+    if gap is not None:
+        by = f"{gap.gap_um:.1f} ± {gap.by_um:.1f} µm".replace("-", "−")
+        paragraph(tell("accept.gap", by=by, sizes=gap.sizes), "cyan")
     for name in of.missing:
         paragraph(tell("accept.missing", name=name), "yellow")
     for name in of.without_limits:
