@@ -10,7 +10,8 @@ from parser.findings.errors import Message, ProgramError
 from sim.cli.options import setting_options, taken_settings, with_dialect, with_options
 from sim.cli.spoken import Spoken, spoken, words
 from sim.cli.spoken.values import FilePath, offer_machines
-from sim.setup.part import THICKNESS
+from sim.setup.part import MATERIAL, THICKNESS
+from sim.setup.wire import DIAMETER
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -19,6 +20,9 @@ if TYPE_CHECKING:
     from sim.run.times.predicted import Predicted
     from sim.setup.scenario import Scenario
     from sim.setup.shop import Shop
+    from sim.setup.technology import Technology
+
+_OF_WORK = (THICKNESS, MATERIAL, DIAMETER)
 
 
 @click.command(cls=Spoken)
@@ -26,7 +30,8 @@ if TYPE_CHECKING:
 @click.option("--log", type=FilePath(path_type=Path, dir_okay=False), metavar="FILE.csv")
 @click.option("--shop", type=FilePath(path_type=Path, dir_okay=False), metavar="FILE.toml")
 @click.option("--machine", metavar="NAME|FILE", shell_complete=offer_machines)
-@with_options(setting_options([THICKNESS]))
+@click.option("--technology", type=FilePath(path_type=Path, dir_okay=False), metavar="FILE.toml")
+@with_options(setting_options(_OF_WORK))
 @with_dialect
 @click.option("-o", "--output", type=FilePath(path_type=Path), metavar="FILE.csv")
 @click.option("--json", "as_json", is_flag=True)
@@ -36,6 +41,7 @@ def time(  # noqa: PLR0913 - click hands over each option by its name
     log: Path | None,
     shop: Path | None,
     machine: str | None,
+    technology: Path | None,
     dialect: "ChosenDialect | None",
     unit: str | None,
     output: Path | None,
@@ -53,13 +59,15 @@ def time(  # noqa: PLR0913 - click hands over each option by its name
     from sim.run.times.estimate import estimated
     from sim.run.times.log import Log, read_log
     from sim.setup.shop import Shop, load_shop
+    from sim.setup.technology import load_technology
     from sim.show.terminal.printer import say, write
     from sim.show.terminal.time import note_text, print_times
 
     if output is not None and output.suffix.lower() != ".csv":
         raise click.BadParameter(Message("times-are-csv", output=output), param_hint="-o")
-    settings = taken_settings([THICKNESS], options)
-    scenarios = [_scenario(path, machine, (dialect, unit), settings) for path in paths]
+    settings = taken_settings(_OF_WORK, options)
+    of_wire = None if technology is None else load_technology(technology)
+    scenarios = [_scenario(path, machine, (dialect, unit), of_wire, settings) for path in paths]
     of_shop = Shop() if shop is None else load_shop(shop)
     programs = [
         _predicted(scenario, of_shop)._replace(name=printable(str(path)))
@@ -80,17 +88,21 @@ def time(  # noqa: PLR0913 - click hands over each option by its name
 
 
 def _scenario(
-    path: Path, machine: str | None, read_as: "tuple[ChosenDialect | None, str | None]", settings: "Mapping[str, Any]"
+    path: Path,
+    machine: str | None,
+    read_as: "tuple[ChosenDialect | None, str | None]",
+    technology: "Technology | None",
+    settings: "Mapping[str, Any]",
 ) -> "Scenario":
     """The scenario of a path with the options in place of its own values."""
     from sim.cli.scenario_options import of_options, read_with
     from sim.setup.machine.machine import load_machine
-    from sim.setup.scenario import load_scenario
+    from sim.setup.scenario import load_scenario, with_values
 
     scenario = read_with(load_scenario(path), *read_as, ())
     if machine is not None:
         scenario = replace(scenario, machine=load_machine(machine), machine_by_default=False)
-    return replace(scenario, **of_options([THICKNESS], settings))
+    return with_values(scenario, of_options(_OF_WORK, settings), technology)
 
 
 def _predicted(scenario: "Scenario", shop: "Shop") -> "Predicted":

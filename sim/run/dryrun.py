@@ -22,7 +22,7 @@ from parser.findings.findings import Finding
 from parser.geometry.curves import Floats
 from parser.program import Program
 from parser.shape.contours import Contour
-from parser.shape.passes import Passes, pass_numbers
+from parser.shape.passes import Passes
 from parser.text.source import BlockNames
 from parser.toolpath import Toolpath
 from parser.units import from_mm
@@ -34,7 +34,7 @@ from sim.measure.causes import BlockSteps, Deviations
 from sim.measure.compare.result import Comparison
 from sim.measure.factor import Interval, factor_of, interval_of
 from sim.measure.passes import PassFigures
-from sim.run.prepare import Prepared
+from sim.run.prepare import Prepared, time_spread_s
 from sim.setup.expectations import Missed
 from sim.setup.machine.machine import Machine, TableModel
 from sim.setup.scenario import Scenario
@@ -209,18 +209,14 @@ class DryRun:
     def time_s(self) -> Interval | None:
         """How long it takes, by the technology, else by no cut of this machine.
 
-        None where a program for the card set its own speeds. By a technology all passes are as fast, or as slow, as
-        they may be: who errs in one mostly errs in all.
+        None where a program for the card set its own speeds.
         """
         if self.feeds is None:
             return None
         if self.scenario.technology is None:
             return interval_of(self.ran_s, factor_of(np.empty(0)))
-        number = pass_numbers(self.toolpath, self.passes)
-        ratios = [self.scenario.technology_of(each).time_ratios for each in range(1, int(number.max(initial=1)) + 1)]
-        cut_s = np.where(self.toolpath.is_jump, 0.0, self.block_time_s)
-        least, most = (np.array(ratios)[number - 1] - 1.0).T @ cut_s
-        return Interval(self.ran_s + float(least), self.ran_s, self.ran_s + float(most), LEVEL)
+        less_s, more_s = time_spread_s(self.toolpath, self.passes, self.block_time_s, self.scenario)
+        return Interval(self.ran_s - less_s, self.ran_s, self.ran_s + more_s, LEVEL)
 
     @property
     def has_trims(self) -> bool:

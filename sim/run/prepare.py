@@ -19,8 +19,10 @@ from parser.dialect.reader import in_codes
 from parser.findings.codes import Check, Severity
 from parser.findings.errors import ProgramError, SettingsError
 from parser.findings.findings import Finding, NotSimulated, WithoutOffset, file_order, telling
+from parser.geometry.curves import Floats
 from parser.program import Program
-from parser.shape.passes import find_passes, pass_numbers
+from parser.shape.passes import Passes, find_passes, pass_numbers
+from parser.toolpath import Toolpath
 from sim.check.compensation.check import WithoutValue, compensation_of, is_known
 from sim.check.offset import (
     Distances,
@@ -188,6 +190,19 @@ def _feeds(program: Program, scenario: Scenario) -> Feeds:
     number = pass_numbers(program.toolpath, find_passes(program.toolpath))
     of_pass = [scenario.technology_feed_um_s(each) for each in range(1, int(number.max(initial=1)) + 1)]
     return feeds._replace(cut_um_s=np.array(of_pass)[number - 1])
+
+
+def time_spread_s(toolpath: Toolpath, passes: Passes, row_s: Floats, scenario: Scenario) -> tuple[float, float]:
+    """By how much the time of a path may be less, and by how much more, as the technology has its feeds, s.
+
+    `row_s` (n,) is what each row takes. All passes are as fast, or as slow, as they may be: who errs in one mostly errs
+    in all.
+    """
+    number = pass_numbers(toolpath, passes)
+    ratios = np.array([scenario.technology_of(each).time_ratios for each in range(1, int(number.max(initial=1)) + 1)])
+    cut_s = np.where(toolpath.is_jump, 0.0, row_s)
+    less_s, more_s = (cut_s @ np.abs(ratios - 1.0)[number - 1]).tolist()
+    return less_s, more_s
 
 
 def checked_for(program: Program, scenario: Scenario) -> tuple[Checked, Steps]:

@@ -11,6 +11,7 @@ from sim.run.times.cost import Cost, cost_of
 from sim.run.times.log import Log
 from sim.run.times.predicted import Predicted, Term
 from sim.setup.shop import Rates
+from sim.setup.technology import LEVEL, Technology
 
 
 class Estimate(NamedTuple):
@@ -26,6 +27,8 @@ class Estimate(NamedTuple):
         What it costs; None where no rates are given.
     notes
         What it was made without: names of texts ``time.note-…``.
+    technology
+        What the interval is of; None where it is of the shop's own cuts, or of nothing.
     """
 
     minutes: Interval
@@ -33,6 +36,7 @@ class Estimate(NamedTuple):
     terms: tuple[Term, ...]
     cost: Cost | None
     notes: tuple[Remark, ...] = ()
+    technology: Technology | None = None
 
 
 def estimated(programs: Sequence[Predicted], log: Log, rates: Rates | None) -> Estimate:
@@ -41,10 +45,19 @@ def estimated(programs: Sequence[Predicted], log: Log, rates: Rates | None) -> E
     shares = np.array([program.minutes / whole if whole else 1.0 / len(programs) for program in programs])
     unlike = [log.unlike_sd(program.height_mm, program.passes) for program in programs]
     factor = factor_of(log.log_ratios, float(shares @ np.array(unlike)), shares)
-    minutes = interval_of(whole, factor)
+    minutes, technology = interval_of(whole, factor), None if log.cuts else _technology(programs)
+    if technology is not None:
+        less, more = (sum(getattr(each, name) for each in programs) for name in ("less_min", "more_min"))
+        minutes = Interval(whole - less, whole, whole + more, LEVEL)
     terms = (*_together(programs), *_learned(whole, factor))
     cost = None if rates is None else cost_of(minutes.least, minutes.middle, minutes.most, rates, len(programs))
-    return Estimate(minutes, factor.from_cuts, terms, cost, tuple(_notes(programs, log)))
+    return Estimate(minutes, factor.from_cuts, terms, cost, tuple(_notes(programs, log)), technology)
+
+
+def _technology(programs: Sequence[Predicted]) -> Technology | None:
+    """The technology of all programs; None where one has another, or none."""
+    first = programs[0].technology
+    return first if all(each.technology == first for each in programs) else None
 
 
 def _together(programs: Sequence[Predicted]) -> list[Term]:

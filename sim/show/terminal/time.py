@@ -11,7 +11,7 @@ from sim.run.times.estimate import Estimate
 from sim.run.times.predicted import Predicted
 from sim.show.terminal.layout import paragraph, show, table
 from sim.show.texts import Words
-from sim.show.texts.phrases import lasting, with_interval
+from sim.show.texts.phrases import lasting, lasting_within, with_interval
 
 
 def print_times(whole: Estimate, programs: Sequence[tuple[Predicted, Estimate]], language: Language) -> None:
@@ -45,12 +45,16 @@ def _programs(whole: Estimate, programs: Sequence[tuple[Predicted, Estimate]], t
 def _times(estimate: Estimate, tell: Words) -> tuple[str, str]:
     """The middle, and the interval."""
     least, middle, most = (_in(lasting(60.0 * value), tell) for value in estimate.minutes[:3])
-    return middle, f"{least} … {most}" if estimate.from_cuts else f"± {round(100.0 * UNKNOWN)} %"
+    is_known = estimate.from_cuts or estimate.technology is not None
+    return middle, f"{least} … {most}" if is_known else f"± {round(100.0 * UNKNOWN)} %"
 
 
 def _whole(estimate: Estimate, tell: Words) -> str:
     least, middle, most, level = estimate.minutes
-    return _in(with_interval(Interval(60.0 * least, 60.0 * middle, 60.0 * most, level), estimate.from_cuts), tell)
+    time_s = Interval(60.0 * least, 60.0 * middle, 60.0 * most, level)
+    if estimate.technology is not None:
+        return _in(lasting_within(60.0 * middle, time_s, estimate.technology), tell)
+    return _in(with_interval(time_s, estimate.from_cuts), tell)
 
 
 def _in(text: Bilingual, tell: Words) -> str:
