@@ -31,6 +31,7 @@ _COMMANDS = {
     "explain": "sim.cli.explain",
     "fit": "sim.cli.fit",
     "lsp": "sim.cli.lsp",
+    "machine": "sim.cli.machine",
     "open": "sim.cli.open",
     "program": "sim.cli.program",
     "replay": "sim.cli.replay",
