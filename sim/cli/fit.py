@@ -20,6 +20,7 @@ _USUAL = "dk7740"
 @click.command(cls=Spoken)
 @click.argument("file", type=FilePath(path_type=Path), metavar="FILE.csv")
 @click.option("--back", type=FilePath(path_type=Path, dir_okay=False), metavar="FILE.csv")
+@click.option("--corner", is_flag=True)
 @click.option("--feed", type=Speed())
 @click.option("--machine", metavar="NAME|FILE", shell_complete=offer_machines)
 @click.option("-o", "--output", type=FilePath(path_type=Path), metavar="FILE.toml")
@@ -27,26 +28,39 @@ _USUAL = "dk7740"
 def fit(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     file: Path,
     back: Path | None,
+    corner: bool,
     feed: float | None,
     machine: str | None,
     output: Path | None,
     as_json: bool,
 ) -> None:
-    """Tell what a measured circle says of a machine, with intervals, and what it cannot say.
+    """Tell what a measured circle says of a machine, or a corner of the wire.
 
     \b
     drycut fit circle.csv --feed 500mm/min --machine mine.toml
     drycut fit ccw.csv --back cw.csv -o mine.toml
+    drycut fit corner.csv --corner
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     from parser.text.encoding import printable
     from sim.measure.fit.circle import fit_circle
+    from sim.measure.fit.corner import fit_corner
     from sim.measure.fit.model import document_text
     from sim.measure.fit.rows import read_circle
     from sim.setup.machine.machine import load_machine
-    from sim.show.terminal.fit import print_fit
+    from sim.show.terminal.fit import print_corner, print_fit
     from sim.show.terminal.layout import paragraph
     from sim.show.terminal.printer import say, write
 
+    if corner:
+        for option, value in (("--back", back), ("--feed", feed), ("--machine", machine), ("-o", output)):
+            if value is not None:
+                raise click.BadParameter(Message("not-with-corner"), param_hint=option)
+        of_corner = fit_corner(read_circle(file))
+        if as_json:
+            write(document_text(printable(str(file)), of_corner, words()), "json")
+        else:
+            print_corner(of_corner, spoken())
+        return
     if output is not None and output.suffix.lower() != ".toml":
         raise click.BadParameter(Message("machine-is-toml", output=output), param_hint="-o")
     if feed is not None and feed <= 0.0:

@@ -323,7 +323,7 @@ def _lack(columns: Floats, angle: Floats, off: Floats, is_used: Bools) -> str:
         if more and _is_better(columns[rows], np.column_stack(more)[rows], off[rows]):
             return name
     residual = off[rows] - columns[rows] @ np.linalg.lstsq(columns[rows], off[rows], rcond=None)[0]
-    return "runs" if _has_few_runs(residual) else ""
+    return "runs" if has_few_runs(residual) else ""
 
 
 def _is_better(columns: Floats, more: Floats, off: Floats) -> bool:
@@ -342,7 +342,7 @@ def _is_better(columns: Floats, more: Floats, off: Floats) -> bool:
     return bool(deviate > NormalDist().inv_cdf(1.0 - _FALSE_ALARM))
 
 
-def _has_few_runs(residual: Floats) -> bool:
+def has_few_runs(residual: Floats) -> bool:
     """Whether the signs of neighbouring residuals are alike more often than by chance."""
     above = residual > 0.0
     more, fewer = int(above.sum()), int((~above).sum())

@@ -6,6 +6,7 @@ from typing import Annotated, Literal, Protocol, TypedDict
 from parser import __version__
 from parser.documents import Count, Document, Size, Text, Version, one_of
 from sim.measure.fit.circle import CircleFit, Parameter
+from sim.measure.fit.corner import CornerFit
 
 _DIGITS = 6
 
@@ -37,7 +38,7 @@ class LackEntry(TypedDict):
 
 
 class FitDocument(TypedDict):
-    """What a measured circle tells of a machine."""
+    """What a measured circle tells of a machine, or a corner of the wire; that has no directions."""
 
     schema: Literal["drycut.fit/1"]
     drycut: Version
@@ -53,22 +54,22 @@ class FitDocument(TypedDict):
 FIT = Document(FitDocument, "docs/fit.md")
 
 
-def document(file: str, fit: CircleFit, say: Say) -> FitDocument:
+def document(file: str, fit: CircleFit | CornerFit, say: Say) -> FitDocument:
     """A fit as plain lists, dicts, numbers and None; `say` has the texts of keys."""
     return {
         "schema": "drycut.fit/1",
         "drycut": __version__,
         "file": file,
         "places": fit.places,
-        "left_out": fit.left_out,
-        "directions": ["ccw" if sense > 0 else "cw" for sense in fit.senses],
+        "left_out": fit.left_out if isinstance(fit, CircleFit) else 0,
+        "directions": ["ccw" if sense > 0 else "cw" for sense in fit.senses] if isinstance(fit, CircleFit) else [],
         "parameters": [_entry(each, say) for each in fit.parameters],
         "lack_of_fit": {"found": bool(fit.lack), "why": say(f"fit.lack-{fit.lack}") if fit.lack else ""},
         "residual_um": _rounded(fit.residual_um) or 0.0,
     }
 
 
-def document_text(file: str, fit: CircleFit, say: Say) -> str:
+def document_text(file: str, fit: CircleFit | CornerFit, say: Say) -> str:
     """The document as JSON."""
     return json.dumps(document(file, fit, say), ensure_ascii=False, allow_nan=False, indent=2) + "\n"
 

@@ -1,22 +1,28 @@
 """What a measured circle tells on the terminal: each parameter with its interval, or why there is none."""
 
+from collections.abc import Iterable
 from typing import Literal
 
 from parser.findings.catalogue import Language
 from sim.measure.fit.circle import CircleFit, Parameter
+from sim.measure.fit.corner import CornerFit
 from sim.show.terminal.layout import paragraph, show, table
 from sim.show.texts import Words
+
+
+def print_corner(done: CornerFit, language: Language) -> None:
+    """Print what a corner tells to stdout."""
+    tell = Words(language)
+    _print_parameters("title-corner", done.parameters, tell)
+    paragraph(tell("fit.of-corner", places=f"{done.places:,}", rest=f"{done.residual_um:.3g}"))
+    if done.lack:
+        paragraph(tell("fit.lack", why=tell(f"fit.lack-{done.lack}")), "yellow")
 
 
 def print_fit(done: CircleFit, language: Language, unnamed: Literal["", "unknown", "usual"]) -> None:
     """Print a fit to stdout; where nobody named its machine, what was taken for it: nothing, or the usual one."""
     tell = Words(language)
-    rows = table(
-        tell("fit.title"), tuple(tell(f"fit.head-{name}") for name in ("parameter", "value", "interval")), (1,)
-    )
-    for parameter in done.parameters:
-        rows.add_row(tell(f"fit.name-{parameter.name}"), *_numbers(parameter, tell))
-    show(rows)
+    _print_parameters("title", done.parameters, tell)
     turns = tell("fit.both" if len(done.senses) > 1 else "fit.ccw" if done.senses[0] > 0 else "fit.cw")
     values = {"places": f"{done.places:,}", "turns": turns, "rest": f"{done.residual_um:.3g}"}
     paragraph(tell("fit.of", **values))
@@ -26,6 +32,14 @@ def print_fit(done: CircleFit, language: Language, unnamed: Literal["", "unknown
         paragraph(tell(f"fit.{unnamed}-machine"), "cyan")
     if done.lack:
         paragraph(tell("fit.lack", why=tell(f"fit.lack-{done.lack}")), "yellow")
+
+
+def _print_parameters(title: str, parameters: Iterable[Parameter], tell: Words) -> None:
+    heads = tuple(tell(f"fit.head-{name}") for name in ("parameter", "value", "interval"))
+    rows = table(tell(f"fit.{title}"), heads, (1,))
+    for parameter in parameters:
+        rows.add_row(tell(f"fit.name-{parameter.name}"), *_numbers(parameter, tell))
+    show(rows)
 
 
 def _numbers(parameter: Parameter, tell: Words) -> tuple[str, str]:

@@ -10,6 +10,7 @@ from command import run_inside
 from jsonschema import Draft202012Validator
 from places import ROOT
 
+from sim.measure.fit.corner import corner_edge
 from sim.setup.machine.machine import load_machine
 
 SCHEMA = Draft202012Validator(json.loads((ROOT / "docs" / "fit.schema.json").read_text(encoding="utf-8")))
@@ -45,6 +46,25 @@ def test_a_fitted_machine_file_runs_the_circle_that_was_measured(machine: Path) 
     assert not {"backlash_x_um", "backlash_y_um"} & set(fitted.assumed)
     assert circularity_um(mine) == pytest.approx(circularity_um(machine), abs=0.3)
     assert re.match(r"# reversal_x: \d", mine.read_text("utf-8"))
+
+
+def test_a_corner_tells_the_lag_of_the_wire(tmp_path: Path) -> None:
+    """The edge as cut by a wire that lags by 30 µm, a place every 8 µm: the numbers of docs/fit.md."""
+    edge = corner_edge(np.pi / 2.0, 100.0, 30.0)
+    along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(edge, axis=0).T))])
+    middle = along[1] + 60.0
+    wanted = np.linspace(middle - 800.0, middle + 800.0, 200)
+    places = np.column_stack([np.interp(wanted, along, column) for column in edge.T])
+    rows = [f"{x / 1000.0:.7f},{y / 1000.0:.7f}" for x, y in places]
+    (tmp_path / "corner.csv").write_text("\n".join(["x_mm,y_mm", *rows]))
+    done = run_inside("fit", tmp_path / "corner.csv", "--corner", "--json")
+    found = json.loads(done.stdout)
+    SCHEMA.validate(found)
+    told = {each["name"]: each["value"] for each in found["parameters"]}
+    assert told == {"lag_um": pytest.approx(30.0, abs=0.1), "reach_um": pytest.approx(100.0, abs=0.1)}
+    assert "滞后" in run_inside("fit", tmp_path / "corner.csv", "--corner", "--lang", "zh").stdout.decode()
+    refused = run_inside("fit", tmp_path / "corner.csv", "--corner", "--feed", "10mm/min")
+    assert (refused.returncode, b"--feed" in refused.stderr) == (2, True)
 
 
 def test_without_a_machine_both_circles_are_taken_for_one_of_the_usual_machine(machine: Path) -> None:
