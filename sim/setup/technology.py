@@ -125,8 +125,11 @@ class Technology(NamedTuple):
 
     @property
     def materials(self) -> tuple[str, ...]:
-        """The materials that it knows, in order."""
-        return tuple(dict.fromkeys(cut.material for cut in self.cuts))
+        """The materials that it knows, in order, each as it is first written."""
+        written: dict[str, str] = {}
+        for cut in self.cuts:
+            written.setdefault(cut.material.casefold(), cut.material)
+        return tuple(written.values())
 
 
 def assumed_pass(gap_um: float, feed_mm_min: float, lag_um: float, source: str) -> PassTechnology:
@@ -262,6 +265,8 @@ class _Law(NamedTuple):
         As a share of the figure, how far it may be off halfway between two heights in the ratio of 1 to 3.
     beyond
         The same, at half the least height that is known, or twice the greatest.
+    lowest
+        What it cannot fall below.
     """
 
     value: Callable[[Cut], float | None]
@@ -269,10 +274,14 @@ class _Law(NamedTuple):
     is_ratio: bool
     between: float
     beyond: float
+    lowest: float = 0.0
 
 
-def _feed(cut: Cut) -> float | None:
-    return cut.area_rate_mm2_min / cut.height_mm if cut.area_rate_mm2_min is not None else cut.feed_mm_min
+def _rate(cut: Cut) -> float | None:
+    """Area rate, mm²/min: beyond the heights that are known it stays, and not the feed."""
+    if cut.area_rate_mm2_min is not None or cut.feed_mm_min is None:
+        return cut.area_rate_mm2_min
+    return cut.feed_mm_min * cut.height_mm
 
 
 def _or(given: float | None, usual: float) -> float:
@@ -285,10 +294,11 @@ _GAP = _Law(
     is_ratio=False,
     between=0.0,
     beyond=_BEYOND_GAP,
+    lowest=-math.inf,
 )
-_FEED = _Law(
-    value=_feed,
-    within=lambda cut, grade, feed: feed * _or(cut.rate_within, RATE_WITHIN[grade]),
+_RATE = _Law(
+    value=_rate,
+    within=lambda cut, grade, rate: rate * _or(cut.rate_within, RATE_WITHIN[grade]),
     is_ratio=True,
     between=_BETWEEN,
     beyond=_BEYOND_RATE,
@@ -318,9 +328,13 @@ _ROUGHNESS = _Law(
 
 def _pass_at(number: int, cuts: Sequence[Cut], height_mm: float, technology: Technology) -> PassTechnology:
     """One pass at a height, by its rows in order of height."""
-    gap, *others = (_figure(law, cuts, height_mm, technology) for law in (_GAP, _FEED, _LAG, _OFFSET, _ROUGHNESS))
+    gap, rate, *others = (_figure(law, cuts, height_mm, technology) for law in (_GAP, _RATE, _LAG, _OFFSET, _ROUGHNESS))
     assert gap is not None  # noqa: S101 - each row has a gap
-    return PassTechnology(number, gap, *others)
+    feed = None
+    if rate is not None:
+        value, least, most = (each / height_mm for each in rate[:3])
+        feed = rate._replace(value=value, least=least, most=most)
+    return PassTechnology(number, gap, feed, *others)
 
 
 def _figure(law: _Law, cuts: Sequence[Cut], height_mm: float, technology: Technology) -> Figure | None:
@@ -338,19 +352,20 @@ def _figure(law: _Law, cuts: Sequence[Cut], height_mm: float, technology: Techno
     is_log = bool((values > 0.0).all())
     value = float(np.interp(at, heights, np.log(values) if is_log else values))
     value = math.exp(value) if is_log else value
-    value = next((own for row, own in zip(heights.tolist(), values.tolist(), strict=True) if row == at), value)
+    near = min(max(at, float(heights[0])), float(heights[-1]))
+    value = next((own for row, own in zip(heights.tolist(), values.tolist(), strict=True) if row == near), value)
     grades = [cut.grade or technology.grade for cut, _ in known]
     withins = [law.within(cut, grade, value) for (cut, _), grade in zip(known, grades, strict=True)]
     within = float(np.interp(at, heights, withins))
     above = min(int(np.searchsorted(heights, at)), len(known) - 1)
     below = max(above - 1, 0) if at < heights[above] else above
     within = math.hypot(within, abs(value) * _unknown(law, at, heights, above))
-    near = sorted({below, above}, key=lambda row: abs(float(heights[row]) - at))
-    worst = worst_grade(grades[row] for row in near)
-    sources = dict.fromkeys(known[row][0].source or technology.source for row in near)
+    rows = sorted({below, above}, key=lambda row: abs(float(heights[row]) - at))
+    worst = worst_grade(grades[row] for row in rows)
+    sources = dict.fromkeys(known[row][0].source or technology.source for row in rows)
     ratio = 1.0 + within / value if law.is_ratio else 1.0
     least, most = (value / ratio, value * ratio) if law.is_ratio else (value - within, value + within)
-    return Figure(value, least, most, worst, "; ".join(sources))
+    return Figure(value, max(least, law.lowest), most, worst, "; ".join(sources))
 
 
 def _unknown(law: _Law, at: float, heights: np.ndarray[Any, np.dtype[np.float64]], above: int) -> float:

@@ -132,6 +132,16 @@ def test_the_interval_opens_between_heights_and_far_more_beyond_them() -> None:
     assert beyond.lag_um.most - 30.0 == pytest.approx(math.hypot(30.0 * LAG_WITHIN["measured"], 30.0))
 
 
+def test_beyond_the_heights_the_area_rate_stays_and_no_lag_is_below_none() -> None:
+    """80 mm²/min at 40 mm are 2 mm/min; through 80 mm they are 1."""
+    rows = of_heights(h40=(12.0, 2.0, 20.0))
+    at_80, at_20 = (passes_at(rows, OF_CR12._replace(height_mm=height))[0] for height in (80.0, 20.0))
+    feeds = [of_pass.feed_mm_min.value for of_pass in (at_80, at_20) if of_pass.feed_mm_min is not None]
+    assert feeds == pytest.approx([1.0, 4.0])
+    assert at_80.lag_um is not None
+    assert (at_80.lag_um.value, at_80.lag_um.least) == (20.0, 0.0)
+
+
 def test_beside_a_row_of_a_table_with_a_hump_the_feed_lies_within_its_interval() -> None:
     """Area rate over height of a maker's table as the trade reports it: 52, 87, 58 mm²/min at 12.7, 38, 152 mm."""
     heights, rates = (12.7, 38.0, 152.0), (52.0, 87.0, 58.0)
@@ -173,6 +183,8 @@ def test_a_material_or_a_wire_that_is_not_known_is_refused_with_what_is(tmp_path
         replace(scenario, wire=replace(scenario.wire, diameter_um=250.0))
     with pytest.raises(SettingsError, match="needs a technology"):
         replace(plain_scenario(), material="Cr12")
+    alike = technology._replace(cuts=(*technology.cuts, ROW._replace(material="CR12", height_mm=60.0)))
+    assert alike.materials == ("Cr12",)
     several = technology._replace(cuts=(*technology.cuts, ROW._replace(material="copper")))
     with pytest.raises(SettingsError, match="Cr12, copper"):
         replace(plain_scenario(), technology=several)
