@@ -92,6 +92,7 @@ def _choice(settings: Mapping[str, Any], wire_um: float) -> "Choice":
 
 def _add(technology: "Technology", output: Path) -> None:
     """Write a technology file, or add its cut to one that stands there. SettingsError where that has it already."""
+    from parser.files import read_bytes
     from sim.base.files import staged
     from sim.setup.technology import load_technology, technology_sections
     from sim.setup.toml.keys import toml_text
@@ -101,7 +102,8 @@ def _add(technology: "Technology", output: Path) -> None:
     before, sections = "", technology_sections(technology)
     if output.exists():
         load_technology(output)
-        before, sections = output.read_text("utf-8").rstrip("\n") + "\n\n", sections[1:]
+        before = read_bytes(output).decode("utf-8").rstrip("\n") + "\n\n"
+        sections = sections[1:]
     with staged(output.parent, [output.name]) as stage:
         (stage / output.name).write_text(before + toml_text(sections), encoding="utf-8", newline="\n")
         load_technology(stage / output.name)

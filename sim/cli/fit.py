@@ -94,7 +94,7 @@ def _write(done: "CircleFit", base: "Machine", feed_um_s: float | None, output: 
     lines = [
         f"# {each.name}: {each.value:.3f} {each.unit}, {each.least:.3f} to {each.most:.3f} (95 %)\n"
         for each in done.parameters
-        if each.name.startswith("reversal") and each.value is not None
+        if each.name.startswith(("reversal", "squareness", "scale")) and each.value is not None
     ]
     if off_um:
         lines.append(f"# lost motion still differs by {off_um:.2f} µm from what was measured\n")

@@ -10,7 +10,7 @@ from controller.stepping.pulses import Pulses
 from parser.controller_words import Axis
 from parser.geometry.curves import Floats, Ints
 from parser.units import from_mm
-from sim.setup.machine.machine import TableEngine, TableModel
+from sim.setup.machine.machine import Geometry, TableEngine, TableModel
 from sim.table.bodies import Bodies, InBodies
 from sim.table.drive import drives_of
 from sim.table.history import History, history_of
@@ -177,4 +177,14 @@ class Following:
         place = np.stack([run.record.sampled_um for run in self._runs], axis=1)
         commanded, place = (np.concatenate([start, column]) for column in (self._commanded_um, place))
         row = np.concatenate([self._ticks.row[:1], self._ticks.row])
+        place = self._placed(place)
         return Trace(np.append(0.0, self._ticks.t_s), commanded, place, place, row)
+
+    def _placed(self, place_um: Floats) -> Floats:
+        """Where the slides are that stand at places (n, 2) by their screws, in program coordinates."""
+        geometry, start = self._setup.model.geometry, np.array(self._setup.start_um)
+        if geometry == Geometry():
+            return place_um
+        corner = start - np.array(self._setup.origin_um)
+        placed: Floats = geometry.placed(place_um + corner, start) - corner
+        return placed

@@ -1,11 +1,11 @@
-"""A machine file whose circular test loses as much motion at the reversals as a measured circle says.
+"""A machine file whose circular test loses as much motion, and is as far out of square, as a measured circle says.
 
 What friction adds to backlash depends on how the table is shaken by its steps: no formula has it. So the test is run
-with the machine as it is and fitted as the measured circle was. By what the two differ its backlash is set, again and
-again until they are alike.
+with the machine as it is and fitted as the measured circle was. By what the two differ its backlash is set, and so are
+squareness and scales, again and again until they are alike.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -19,6 +19,7 @@ ALIKE_UM: Final = 0.05
 """Lost motion that differs by no more is as it was measured."""
 _ROUNDS: Final = 5
 _AXES: Final = ("x", "y")
+_SKEWS: Final = ("squareness", "scale_difference")
 
 
 class FittedMachine(NamedTuple):
@@ -35,7 +36,7 @@ class FittedMachine(NamedTuple):
 def fitted_machine(
     machine: Machine, fit: CircleFit, feed_um_s: float | None, progress: Progress = silent
 ) -> FittedMachine:
-    """The machine with the lost motion of a fit. SettingsError where the circle does not fit its travel.
+    """The machine with lost motion, squareness and scales of a fit. SettingsError for a circle beyond its travel.
 
     Where friction alone loses more than was measured there is no backlash, and less friction. Of an axis of which the
     circle does not tell it, both stay. What is set is assumed no more.
@@ -46,10 +47,12 @@ def fitted_machine(
     for rounds_left in reversed(range(_ROUNDS + 1)):
         found = _simulated(made, radius_um, feed_um_s, progress)
         off = [_less(want, found.value(f"reversal_{name}")) for want, name in zip(wanted, _AXES, strict=True)]
-        if max(map(abs, off)) <= ALIKE_UM or not rounds_left:
+        skew = {name: _less(fit.value(name), found.value(name)) for name in _SKEWS}
+        is_alike = max(abs(1e-6 * radius_um * each) for each in skew.values()) <= ALIKE_UM
+        if (max(map(abs, off)) <= ALIKE_UM and is_alike) or not rounds_left:
             break
-        made = _with_more(made, off)
-    keys = tuple(_changed(machine, made, wanted))
+        made = _skewed(_with_more(made, off), skew)
+    keys = (*_changed(machine, made, wanted), *_skew_keys(fit))
     assumed = tuple(name for name in machine.assumed if name not in keys)
     return FittedMachine(made._replace(assumed=assumed), keys, max(map(abs, off)))
 
@@ -72,6 +75,28 @@ def _changed(machine: Machine, made: Machine, wanted: list[float | None]) -> Ite
 
 def _less(wanted: float | None, found: float | None) -> float:
     return 0.0 if wanted is None or found is None else wanted - found
+
+
+def _skew_keys(fit: CircleFit) -> Iterator[str]:
+    """Names of the keys of what was measured of the axes' directions and scales."""
+    if fit.value("squareness") is not None:
+        yield "squareness_urad"
+    if fit.value("scale_difference") is not None:
+        yield from ("scale_x_ppm", "scale_y_ppm")
+
+
+def _skewed(machine: Machine, more: Mapping[str, float]) -> Machine:
+    """The machine so much more out of square, and with scales so much more apart: half of it in X, half in Y.
+
+    A circle does not tell the mean of both scales from its radius.
+    """
+    geometry = machine.table.geometry
+    half = 0.5 * more["scale_difference"]
+    geometry = geometry._replace(
+        squareness_urad=geometry.squareness_urad + more["squareness"],
+        scale_ppm=(geometry.scale_ppm[0] + half, geometry.scale_ppm[1] - half),
+    )
+    return machine._replace(table=machine.table._replace(geometry=geometry))
 
 
 def _with_more(machine: Machine, more_um: list[float]) -> Machine:

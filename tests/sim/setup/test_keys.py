@@ -166,6 +166,8 @@ UNITS = {
     "n_mm": "N/mm",
     "mm": "mm",
     "um": "µm",
+    "urad": "µrad",
+    "ppm": "ppm",
     "us": "µs",
     "ms": "ms",
     "kg": "kg",
