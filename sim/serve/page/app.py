@@ -25,8 +25,8 @@ from sim.serve.page.answers import ReadFile, answer, file_of, file_text, printab
 from sim.serve.page.child import Life
 from sim.serve.page.drawings import Drawings, is_drawing
 from sim.serve.page.form import Chosen, chosen
-from sim.serve.page.machines import Machines, is_machine, machine_of
-from sim.serve.page.model import AnswerEntry, ChangeEntry, ChangesEntry, FileTextEntry
+from sim.serve.page.machines import Machines, is_machine, is_technology, machine_of, technology_of
+from sim.serve.page.model import AnswerEntry, ChangeEntry, ChangesEntry, FileTextEntry, MachineFileEntry
 from sim.serve.page.programs import STARTS, Programs, row_or_why, start
 from sim.serve.page.runs import (
     MISSING,
@@ -41,7 +41,7 @@ from sim.serve.page.runs import (
     told,
 )
 from sim.show.open_page.page import open_page
-from sim.show.texts.phrases import machine_name
+from sim.show.texts.phrases import machine_name, technology_name
 
 _AFTER_FIRST_S: Final = 1.0
 """From the first page on: its first check is to be answered before a process for runs takes time from it."""
@@ -202,8 +202,10 @@ class _Files:
             own = machines.keep(data)
         except SettingsError as error:
             texts = (text.replace(str(machines.folder) + os.sep, "") for text in error.in_both())
-            named = Bilingual(*(re.sub(r"own-\d+\.toml", lambda _: name, text, count=1) for text in texts))
+            named = Bilingual(*(re.sub(r"(own|technology)-\d+\.toml", lambda _: name, text, count=1) for text in texts))
             return {**_read(name, b""), "why": printable_entry(named)}
+        if is_technology(own):
+            return {**_read(name, b""), "technologies": _technologies(own, machines.folder)}
         title = machine_name(machine_of(own, machines.folder))
         return {**_read(name, b""), "machine": {"name": own, "title": printable_entry(title)}}
 
@@ -231,6 +233,19 @@ class _Text(NamedTuple):
     file: Path | None
     text: str
     for_run: Chosen
+
+
+def _technologies(own: str, folder: Path) -> list[MachineFileEntry]:
+    """A technology file as a form offers it: once for each material that it knows."""
+    technology = technology_of(own, folder)
+    named = technology_name(technology)
+    return [
+        {
+            "name": f"{own}/{material}",
+            "title": printable_entry(Bilingual(*(f"{text}: {material}" for text in (named.en, named.zh)))),
+        }
+        for material in technology.materials
+    ]
 
 
 class _Checks:

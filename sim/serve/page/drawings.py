@@ -26,11 +26,12 @@ def safe_name(name: str) -> str:
 
 READ_KEYS: Final = ("join_mm", "unit")
 """How the page has a drawing read."""
-LOOK_KEYS: Final = ("name", "text", "machine", *FIELDS, "offset_mm", "side", *READ_KEYS)
+LOOK_KEYS: Final = ("name", "text", "machine", "technology", *FIELDS, "offset_mm", "side", *READ_KEYS)
 """What the page says where a drawing is to be laid beneath its program."""
 MAKE_KEYS: Final = (
     "language",
     "machine",
+    "technology",
     *FIELDS,
     "offset_mm",
     "tab_mm",

@@ -11,10 +11,11 @@ from parser.findings.errors import Message, SettingsError
 from parser.text.encoding import narrow
 from parser.units import from_mm
 from sim.serve.page.child import PageRequest
-from sim.serve.page.machines import machine_of
+from sim.serve.page.machines import machine_of, technology_of
 from sim.setup.machine.machine import Machine, machine_names
 from sim.setup.part import (
     DEFAULT_THICKNESS_MM,
+    MATERIAL,
     OFFSET_MM,
     PASSES,
     SIDES,
@@ -49,8 +50,13 @@ def scenario_of(request: PageRequest, file: Path) -> Scenario:
         files = request.get("machine_files")
         machine = machine_of(request["machine"], Path(files) if files else None)
         scenario = replace(scenario, machine=machine, machine_by_default=False)
-    given = {key.name: _setting(request[form], key) for form, key in FIELDS.items() if request[form]}
-    scenario = with_values(scenario, given)
+    given: dict[str, object] = {key.name: _setting(request[form], key) for form, key in FIELDS.items() if request[form]}
+    technology = None
+    if request["technology"]:
+        own, _, given[MATERIAL.name] = request["technology"].partition("/")
+        files = request.get("machine_files")
+        technology = technology_of(own, Path(files) if files else None)
+    scenario = with_values(scenario, given, technology)
     if request["drawing_file"]:
         scenario = replace(scenario, drawing=DrawingTarget(Path(request["drawing_file"])))
     return replace(scenario, offset=_offset(request), kerf=True)

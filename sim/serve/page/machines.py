@@ -1,4 +1,4 @@
-"""Machine files that came to the page: each has a name that no shipped machine has, by which a form names it."""
+"""Machine and technology files that came to the page: each has a name of its own, by which a form names it."""
 
 import re
 from pathlib import Path
@@ -6,12 +6,15 @@ from typing import Final
 
 from parser.findings.errors import SettingsError
 from sim.setup.machine.machine import Machine, load_machine, machine_names
+from sim.setup.technology import TECHNOLOGY, Technology, load_technology
+from sim.setup.toml.reader import load_toml
 
 _OWN: Final = re.compile(r"own-\d{1,9}")
+_TECHNOLOGY: Final = re.compile(r"technology-\d{1,9}")
 
 
 class Machines:
-    """The machine files of the page.
+    """The machine and technology files of the page.
 
     Parameters
     ----------
@@ -24,14 +27,19 @@ class Machines:
         self._count = 0
 
     def keep(self, data: bytes) -> str:
-        """The name of a file that came. SettingsError, which names the file by that name, where it is no machine."""
+        """The name of a file that came. SettingsError, which names the file by that name, where it is neither."""
         name = f"own-{self._count}"
         self._count += 1
         self.folder.mkdir(exist_ok=True)
         file = self.folder / f"{name}.toml"
         file.write_bytes(data)
         try:
-            load_machine(name, own=self.folder)
+            if TECHNOLOGY.name in load_toml(file):
+                name = name.replace("own", "technology")
+                file = file.rename(file.with_stem(name))
+                technology_of(name, self.folder)
+            else:
+                load_machine(name, own=self.folder)
         except SettingsError:
             file.unlink()
             raise
@@ -44,8 +52,20 @@ def machine_files(folder: Path) -> Path:
 
 
 def is_machine(name: str) -> bool:
-    """Whether a file that came is meant as a machine, by its name."""
+    """Whether a file that came is meant as a machine or a technology, by its name."""
     return name.lower().endswith(".toml")
+
+
+def is_technology(name: str) -> bool:
+    """Whether a file that came was a technology, by the name that it got."""
+    return bool(_TECHNOLOGY.fullmatch(name))
+
+
+def technology_of(name: str, files: Path | None) -> Technology:
+    """A technology that came to the page and stands in `files`. SettingsError for another name."""
+    if files is not None and is_technology(name) and (files / f"{name}.toml").is_file():
+        return load_technology(files / f"{name}.toml")
+    raise SettingsError("technology-not-on-page", name=name[:40])
 
 
 def machine_of(name: str, files: Path | None) -> Machine:

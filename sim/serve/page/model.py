@@ -40,6 +40,7 @@ class FileTextEntry(TypedDict):
     number: Annotated[str, "of the program whose file it is; empty where it came to the page"]
     drawing: NotRequired[str]
     machine: NotRequired[MachineFileEntry]
+    technologies: NotRequired[Annotated[list[MachineFileEntry], "one for each material that the file knows"]]
     why: NotRequired[Annotated[SaidEntry, "what was to be open at the start could not be, or is no machine"]]
     recent: NotRequired[Annotated[list[RecentEntry], "where nothing is open at the start"]]
 

@@ -33,7 +33,7 @@ from sim.serve.page.machines import machine_files
 from sim.serve.page.programs import Programs
 from sim.setup.settable import FIELDS
 
-KEYS: Final = ("machine", *FIELDS, "offset_mm", "side")
+KEYS: Final = ("machine", "technology", *FIELDS, "offset_mm", "side")
 """What the page may say of a run, as texts; empty ones leave what is usual."""
 MORE_KEYS: Final = ("job", "form", "seconds", "set", "language")
 """What it may say of a film, of pictures, or of fault drills."""

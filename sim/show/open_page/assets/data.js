@@ -124,6 +124,7 @@
  * @property {string} number of the program whose file it is; empty where it came to the page
  * @property {string} [drawing]
  * @property {MachineFile} [machine]
+ * @property {MachineFile[]} [technologies] one for each material that the file knows
  * @property {Said} [why] what was to be open at the start could not be, or is no machine
  * @property {Recent[]} [recent] where nothing is open at the start
  */

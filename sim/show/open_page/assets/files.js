@@ -27,7 +27,7 @@ export function wireFiles({ begin, draw, list, machine, unlist, current, onSaved
    */
   async function take(read) {
     if (read.drawing) await draw(read.drawing, read.name);
-    else if (read.machine || read.why) machine(read);
+    else if (read.machine || read.technologies || read.why) machine(read);
     else begin(read);
   }
 

@@ -6,6 +6,8 @@ import { mm } from "./size.js";
 /** @import { MachineFile } from "./data.js" */
 
 const LATER_MS = 150;
+/** What a technology tells, so that no field may. */
+const OF_TECHNOLOGY = ["gap_mm", "lag_um"];
 /** @type {Record<string, string>} */
 const SIDES = { left: "side-left", right: "side-right" };
 
@@ -27,6 +29,7 @@ export function wireForm(onChange) {
   const wrong = element("#wrong", HTMLElement);
   const side = element("[name=side]", HTMLSelectElement, form);
   const fields = elements("input, select", form).filter(isField);
+  const technology = element("[name=technology]", HTMLSelectElement, form);
   const numbers = fields.filter((field) => field instanceof HTMLInputElement);
   let waiting = 0;
 
@@ -44,7 +47,7 @@ export function wireForm(onChange) {
   /** Mark the fields that cannot be; whether all can. */
   function isRight() {
     const faults = numbers.map((field) => {
-      const fault = faultOf(field);
+      const fault = field.disabled ? "" : faultOf(field);
       field.setAttribute("aria-invalid", String(Boolean(fault)));
       return fault;
     });
@@ -62,7 +65,7 @@ export function wireForm(onChange) {
    */
   function um(name) {
     const field = element(`[name=${name}]`, HTMLInputElement, form);
-    const value = faultOf(field) ? NaN : numberIn(field.value.trim());
+    const value = field.disabled || faultOf(field) ? NaN : numberIn(field.value.trim());
     return 1000 * (Number.isNaN(value) ? Number(field.placeholder) : value);
   }
 
@@ -73,10 +76,28 @@ export function wireForm(onChange) {
 
   /** Work out what the values give. */
   function show() {
+    for (const field of numbers) field.disabled = Boolean(technology.value) && OF_TECHNOLOGY.includes(field.name);
     const { wireUm, gapUm, reachUm } = wire();
-    element("#reach", HTMLElement).textContent = `${mm(wireUm)} / 2 ${gapUm < 0 ? "−" : "+"} ${mm(Math.abs(gapUm))} = ${mm(reachUm)} mm`;
+    element("#reach", HTMLElement).textContent = technology.value ? language.say("reach-by-technology", { reach: mm(reachUm) }) : `${mm(wireUm)} / 2 ${gapUm < 0 ? "−" : "+"} ${mm(Math.abs(gapUm))} = ${mm(reachUm)} mm`;
     for (const option of side.options) option.textContent = `${language.say(SIDES[option.value])} (${option.dataset.iso})`;
     isRight();
+  }
+
+  /**
+   * Offer files in a list, and choose the first of them.
+   * @param {string} selector
+   * @param {MachineFile[]} files
+   */
+  function offer(selector, files) {
+    const list = element(selector, HTMLSelectElement, form);
+    for (const { name, title: { en, zh } } of files) {
+      const option = make("option", { value: name });
+      Object.assign(option.dataset, { textEn: en, textZh: zh });
+      list.append(option);
+    }
+    language.nameControls();
+    list.value = files[0].name;
+    list.dispatchEvent(new window.Event("input", { bubbles: true }));
   }
 
   form.addEventListener("input", () => {
@@ -94,14 +115,15 @@ export function wireForm(onChange) {
      * Offer a machine whose file came to the page, and choose it.
      * @param {MachineFile} file
      */
-    addMachine({ name, title: { en, zh } }) {
-      const machines = element("[name=machine]", HTMLSelectElement, form);
-      const option = make("option", { value: name });
-      Object.assign(option.dataset, { textEn: en, textZh: zh });
-      machines.append(option);
-      language.nameControls();
-      machines.value = name;
-      machines.dispatchEvent(new window.Event("input", { bubbles: true }));
+    addMachine(file) {
+      offer("[name=machine]", [file]);
+    },
+    /**
+     * Offer a technology whose file came to the page, once for each material, and choose the first.
+     * @param {MachineFile[]} files
+     */
+    addTechnologies(files) {
+      offer("[name=technology]", files);
     },
     /**
      * The values by their names, as texts.
@@ -111,6 +133,7 @@ export function wireForm(onChange) {
       return Object.fromEntries(fields.map((field) => {
         if (field instanceof HTMLSelectElement) return [field.name, field.value];
         if (!(field instanceof HTMLInputElement)) return ["", ""];
+        if (field.disabled) return [field.name, ""];
         const text = field.value.trim();
         return [field.name, field.dataset.many === undefined && text ? text.normalize("NFKC").replace(",", ".") : text];
       }));

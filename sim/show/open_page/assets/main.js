@@ -80,8 +80,9 @@ const files = wireFiles({
     return taken;
   },
   list: (dropped) => listing.take(dropped),
-  machine({ machine, why }) {
+  machine({ machine, technologies, why }) {
     if (machine) form.addMachine(machine);
+    else if (technologies) form.addTechnologies(technologies);
     else if (why) tell("machine-refused", { why: language.pick(why) });
   },
   unlist: () => listing.hide(),
@@ -285,7 +286,7 @@ function nameOf() {
  */
 function start(read) {
   files.recent(read.recent ?? []);
-  const isOther = read.drawing || read.machine;
+  const isOther = read.drawing || read.machine || read.technologies;
   if (!isOther && (read.text !== "" || !text.value)) begin(read);
   else title.textContent = language.say("untitled");
   if (isOther) files.take(read);

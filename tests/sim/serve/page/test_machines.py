@@ -20,6 +20,20 @@ SHIPPED = (ROOT / "sim" / "setup" / "machine" / "dk7740.toml").read_text("utf-8"
 OWN = re.sub(r"(?m)^name_zh = .*\n", "", re.sub(r"(?m)^name = .*$", 'name = "the old one"', SHIPPED))
 NARROW = re.sub(r"(?m)^travel_x_mm = \S+", "travel_x_mm = 100.0", OWN)
 LONG = "B150000B0B150000GXL1\nB0B90000B90000GYL2\nB150000B0B150000GXL3\nB0B90000B90000GYL4\nDD\n"
+TECHNOLOGY = """
+[technology]
+name = "wire 0.18"
+[[cut]]
+material = "Cr12"
+wire_mm = 0.18
+height_mm = 40
+gap_um = 15
+[[cut]]
+material = "copper"
+wire_mm = 0.18
+height_mm = 40
+gap_um = 22
+"""
 SMALL = "B300B0B300GXL1\nB0B300B300GYL2\nB300B0B300GXL3\nB0B300B300GYL4\nDD\n"
 
 
@@ -38,8 +52,9 @@ def checked(served: OpenedPage, machine: str) -> Any:
     return json.loads(served.ask("check", json.dumps(told)).body)
 
 
-def ran(served: OpenedPage, machine: str) -> Any:
-    told = {**dict.fromkeys(KEYS, ""), "machine": machine, "name": "a.3b", "text": SMALL, "number": "", "drawing": ""}
+def ran(served: OpenedPage, machine: str, technology: str = "") -> Any:
+    told = dict.fromkeys(KEYS, "") | {"machine": machine, "technology": technology}
+    told |= {"name": "a.3b", "text": SMALL, "number": "", "drawing": ""}
     assert served.ask("run", json.dumps(told)).status == 200
     for _ in range(1200):
         state = json.loads(served.ask("progress").body)
@@ -47,6 +62,26 @@ def ran(served: OpenedPage, machine: str) -> Any:
             return state
         time.sleep(0.05)
     raise AssertionError(state)
+
+
+def test_a_technology_that_came_is_offered_by_its_materials_and_cuts_the_kerf_of_the_run(served: OpenedPage) -> None:
+    offered = came(served, TECHNOLOGY, "wire.toml")["technologies"]
+    assert [each["title"]["en"] for each in offered] == ["wire 0.18: Cr12", "wire 0.18: copper"]
+    for of, gap_um in zip(offered, (15.0, 22.0), strict=True):
+        state = ran(served, "", of["name"])
+        report = json.loads(served.ask(f"run/{state['run']}/report.json", method="GET").body)
+        assert report["technology"]["material"] == of["title"]["en"].partition(": ")[2]
+        assert report["wire"]["spark_gap_um"] == gap_um
+    assert ran(served, "", "../x/Cr12")["state"] != "done"
+    assert ran(served, "", offered[0]["name"].partition("/")[0] + "/brass")["state"] != "done"
+
+
+def test_a_technology_with_a_fault_says_why_by_the_name_of_its_file(served: OpenedPage) -> None:
+    why = came(served, TECHNOLOGY.replace("gap_um = 22", ""), "wire.toml")["why"]
+    for language in ("en", "zh"):
+        assert why[language].startswith("wire.toml")
+        assert "gap_um" in why[language]
+        assert "technology-" not in why[language]
 
 
 def test_a_machine_that_came_is_that_of_check_and_run(served: OpenedPage) -> None:
@@ -72,7 +107,9 @@ def test_a_plan_is_for_the_machine_that_came(served: OpenedPage, tmp_path: Path)
 
 
 def test_what_is_no_machine_says_why_by_the_name_of_its_file(served: OpenedPage) -> None:
-    for text, said in (("nonsense", "TOML"), (OWN.replace("drive_damping_ratio", "ratio"), "ratio")):
+    deep = "x = " + "[" * 5_000
+    broken = (("[technology]\nnam = 3", "nam"), (deep, ""))
+    for text, said in (("nonsense", "TOML"), *broken, (OWN.replace("drive_damping_ratio", "ratio"), "ratio")):
         why = came(served, text, "old%20one.toml")["why"]
         for language in ("en", "zh"):
             assert "old one.toml" in why[language]
