@@ -36,7 +36,7 @@ from sim.measure.factor import Interval, factor_of, interval_of
 from sim.measure.passes import PassFigures
 from sim.run.prepare import Prepared, time_spread_s
 from sim.setup.expectations import Missed
-from sim.setup.machine.machine import Machine, TableModel
+from sim.setup.machine.machine import Machine, MeasuredValue, TableModel, measured_values
 from sim.setup.scenario import Scenario
 from sim.setup.technology import LEVEL
 from sim.table.history import History
@@ -284,6 +284,8 @@ class Assumptions(NamedTuple):
         What the text of the program leaves open.
     values
         Keys of its values that nobody has measured, as its file says.
+    measured
+        Its values that somebody has.
     compared
         Whether the cut was held against a drawing.
     wire_bows
@@ -294,6 +296,7 @@ class Assumptions(NamedTuple):
     by_default: bool
     program: tuple[Assumption, ...]
     values: tuple[str, ...]
+    measured: tuple[MeasuredValue, ...]
     compared: bool
     wire_bows: bool
 
@@ -306,6 +309,7 @@ def assumptions_of(run: DryRun) -> Assumptions:
         by_default=scenario.machine_by_default,
         program=run.program.reading.assumptions,
         values=scenario.machine.assumed,
+        measured=measured_values(scenario.machine),
         compared=run.comparison is not None,
         wire_bows=scenario.wire_lag_um > 0.0,
     )

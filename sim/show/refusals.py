@@ -3,7 +3,7 @@
 What a run took for granted, in words, for terminal and page.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from parser.findings.catalogue import Bilingual
 from parser.text.encoding import printable
@@ -11,7 +11,8 @@ from parser.units import mm
 from sim.make.cam.model import Refusal
 from sim.run.dryrun import DryRun, assumptions_of
 from sim.setup.key_words import words_of
-from sim.setup.machine.machine import SECTIONS
+from sim.setup.machine.machine import SECTIONS, MeasuredValue
+from sim.setup.toml.keys import Key, Section
 from sim.show.texts import bilingual
 from sim.show.texts.phrases import as_read, listed, machine_name, same
 
@@ -48,6 +49,18 @@ def machine_values(keys: Sequence[str]) -> Bilingual:
     return listed(names[key] for key in keys)
 
 
+def measured_figures(measured: Iterable[MeasuredValue]) -> Bilingual:
+    """Values of a machine that were measured, each with its margin and unit."""
+    keys = {key.name: (section, key) for section in SECTIONS for key in section.keys}
+    return listed(_figure(*keys[each.key], each) for each in measured)
+
+
+def _figure(section: Section, key: Key, measured: MeasuredValue) -> Bilingual:
+    name = words_of(section, key).name
+    figure = f"{measured.value:.6g} ± {measured.within:.2g} {key.kind.unit}".rstrip()
+    return Bilingual(f"{name.en} {figure}", f"{name.zh} {figure}")
+
+
 def taken_for_granted(run: DryRun) -> list[Bilingual]:
     """A sentence for each: how the program was read, the machine, and what nobody has measured or looked at."""
     found = assumptions_of(run)
@@ -56,6 +69,8 @@ def taken_for_granted(run: DryRun) -> list[Bilingual]:
     lines.append(bilingual(f"assumptions.{key}", machine=machine_name(found.machine)))
     if found.values:
         lines.append(bilingual("assumptions.values", count=len(found.values), values=machine_values(found.values)))
+    if found.measured:
+        lines.append(bilingual("assumptions.measured", values=measured_figures(found.measured)))
     if not found.compared:
         lines.append(bilingual("assumptions.no-drawing"))
     if not found.wire_bows:

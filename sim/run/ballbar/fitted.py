@@ -39,7 +39,8 @@ def fitted_machine(
     """The machine with lost motion, squareness and scales of a fit. SettingsError for a circle beyond its travel.
 
     Where friction alone loses more than was measured there is no backlash, and less friction. Of an axis of which the
-    circle does not tell it, both stay. What is set is assumed no more.
+    circle does not tell it, both stay. What is set is assumed no more; backlash and squareness are measured then,
+    backlash with the friction and the stiffness that stand in the file.
     """
     radius_um = float(round(next(each.value for each in fit.parameters if each.value is not None)))
     wanted = [fit.value(f"reversal_{name}") for name in _AXES]
@@ -54,7 +55,13 @@ def fitted_machine(
         made = _skewed(_with_more(made, off), skew)
     keys = (*_changed(machine, made, wanted), *_skew_keys(fit))
     assumed = tuple(name for name in machine.assumed if name not in keys)
-    return FittedMachine(made._replace(assumed=assumed), keys, max(map(abs, off)))
+    measured = {name: within for name, within in machine.measured if name not in keys} | _margins(fit)
+    for axis, name in enumerate(_AXES):
+        # Without backlash the friction makes the lost motion, and what is still off was not measured so.
+        if f"friction_{name}_n" in keys or abs(off[axis]) > ALIKE_UM:
+            measured.pop(f"backlash_{name}_um", None)
+    made = made._replace(assumed=assumed, measured=tuple(measured.items()))
+    return FittedMachine(made, keys, max(map(abs, off)))
 
 
 def _simulated(machine: Machine, radius_um: float, feed_um_s: float | None, progress: Progress) -> CircleFit:
@@ -71,6 +78,20 @@ def _changed(machine: Machine, made: Machine, wanted: list[float | None]) -> Ite
             yield f"backlash_{name}_um"
         if made.table.friction_n[axis] != machine.table.friction_n[axis]:
             yield f"friction_{name}_n"
+
+
+def _margins(fit: CircleFit) -> dict[str, float]:
+    """Half the intervals of what a circle tells, by the keys of the machine file.
+
+    Not of the scales: it tells their difference alone.
+    """
+    keys = {"reversal_x": "backlash_x_um", "reversal_y": "backlash_y_um", "squareness": "squareness_urad"}
+    found = ((keys.get(each.name), each) for each in fit.parameters)
+    return {
+        key: round(0.5 * (each.most - each.least), 3)
+        for key, each in found
+        if key and each.least is not None and each.most is not None
+    }
 
 
 def _less(wanted: float | None, found: float | None) -> float:

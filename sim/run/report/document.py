@@ -288,6 +288,7 @@ def _assumptions(run: DryRun) -> AssumptionsEntry:
         "program": [each.entry("en") for each in found.program],
         "machine_by_default": found.by_default,
         "machine_values": list(found.values),
+        "machine_measured": [{"key": key, "value": value, "within": within} for key, value, within in found.measured],
         "drawing_compared": found.compared,
         "wire_bows": found.wire_bows,
     }

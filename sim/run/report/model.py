@@ -80,12 +80,21 @@ class MachineEntry(TypedDict):
     start_um: Point
 
 
+class MeasuredEntry(TypedDict):
+    """A value of the machine file that was measured, in the unit of its key: 95 of 100 lie no farther off."""
+
+    key: Text
+    value: float
+    within: Size
+
+
 class AssumptionsEntry(TypedDict):
     """What the program leaves open, which figures nobody has measured, and what was left out."""
 
     program: list[AssumptionEntry]
     machine_by_default: bool
     machine_values: list[Text]
+    machine_measured: list[MeasuredEntry]
     drawing_compared: bool
     wire_bows: bool
 

@@ -220,5 +220,9 @@ def carried_over(base: Machine, foreign: ForeignMachine) -> list[WrittenSection]
         if written.section is TOP:
             of_base.pop("name_zh", None)
             own = {"name": foreign.name, "assumed": [key for key in base.assumed if key not in values]}
+            if measured := {key: within for key, within in base.measured if key not in values}:
+                own["measured"] = measured
+            else:
+                of_base.pop("measured", None)
         found.append(written._replace(values={**of_base, **own}))
     return found

@@ -33,6 +33,7 @@ from sim.setup.toml.kinds import (
     MS_AS_S,
     US_AS_S,
     Keys,
+    Margins,
     Number,
     OneOf,
     Text,
@@ -389,7 +390,12 @@ def _junction(value: dict[str, Any], where: str) -> Junction:
 
 TOP = Section(
     "machine",
-    (Key("name", Text()), Key("name_zh", Text(), default=None), Key("assumed", Keys(), default=())),
+    (
+        Key("name", Text()),
+        Key("name_zh", Text(), default=None),
+        Key("assumed", Keys(), default=()),
+        Key("measured", Margins(), default=()),
+    ),
     form="top",
 )
 CUTTING = Section("cutting", (Key("area_rate_mm2_min", Number(AREA_RATE_MM2_MIN, "mm²/min")),))
@@ -405,8 +411,9 @@ class Machine(NamedTuple):
     """One machine as its file gives it; units as named.
 
     `arm_um` is the outline of the arm round the wire, if known. `assumed` are the keys of the values that nobody has
-    measured. `name_zh` is its name in Chinese, None where that is the same. `engine` is what its table is worked out
-    with, which is no matter of the file.
+    measured, `measured` those that somebody has, each with half of its 95 % interval in the unit of the key: no run
+    goes by either. `name_zh` is its name in Chinese, None where that is the same. `engine` is what its table is worked
+    out with, which is no matter of the file.
     """
 
     name: str
@@ -416,6 +423,7 @@ class Machine(NamedTuple):
     arm_um: Outline | None = None
     name_zh: str | None = None
     assumed: tuple[str, ...] = ()
+    measured: tuple[tuple[str, float], ...] = ()
     engine: TableEngine = "compiled"
 
     def stepping_by(self, interpolation: Interpolation) -> "Machine":
@@ -436,6 +444,20 @@ class Machine(NamedTuple):
     def held_um_s(self, feed_um_s: float) -> float:
         """A feed of cuts as the controller runs it: no faster than one step of 1 µm a tick of its limit."""
         return min(feed_um_s, self.controller.cut_step_limit_hz)
+
+
+class MeasuredValue(NamedTuple):
+    """A value of a machine file that was measured, ± `within` in 95 of 100 cases; both in the unit of its key."""
+
+    key: str
+    value: float
+    within: float
+
+
+def measured_values(machine: Machine) -> tuple[MeasuredValue, ...]:
+    """What was measured of a machine, in the order of its file."""
+    written = {name: value for section in machine_sections(machine) for name, value in section.values.items()}
+    return tuple(MeasuredValue(name, written[name], within) for name, within in machine.measured)
 
 
 def machine_names() -> tuple[str, ...]:
@@ -479,8 +501,19 @@ def _read(path: Path) -> Machine:
         **CUTTING.read_in(content, where),
         **arm,
     )
-    known = {key.name for section in SECTIONS[1:] for key in section.keys}
+    _check_grades(machine, where)
+    return machine
+
+
+def _check_grades(machine: Machine, where: str) -> None:
+    """SettingsError for a mark of what is no value of the file, and for a value that is assumed and measured."""
+    known = {key.name: key.kind for section in SECTIONS[1:] for key in section.keys}
     for name in machine.assumed:
         if name not in known:
             raise SettingsError("assumed-key-unknown", where=where, name=name)
-    return machine
+    values = {name for section in machine_sections(machine) for name in section.values}
+    for name, _ in machine.measured:
+        if name not in values or not isinstance(known.get(name), Number):
+            raise SettingsError("measured-key-unknown", where=where, name=name)
+        if name in machine.assumed:
+            raise SettingsError("measured-and-assumed", where=where, name=name)

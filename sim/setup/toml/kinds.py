@@ -140,6 +140,32 @@ class Keys(ValueKind):
         return {"type": "array", "items": {"type": "string"}}
 
 
+class Margins(ValueKind):
+    """By keys of the file, how far their values may be off, in their units."""
+
+    name = "margins"
+    bound = Bound(0.0, 1e9)
+
+    def checked(self, table: Mapping[str, Any], key: str, where: str) -> dict[str, float]:
+        """The margins by their keys."""
+        found = table[key]
+        if not isinstance(found, dict):
+            raise SettingsError("no-table-of-keys", where=where, key=key, found=found)
+        return {name: number(value, self.bound, f"{where}: {key}: {printable(name)}") for name, value in found.items()}
+
+    def inside(self, value: Any) -> tuple[tuple[str, float], ...]:
+        """Pairs of key and margin."""
+        return tuple(dict(value).items())
+
+    def written(self, value: Any) -> dict[str, float] | None:
+        """A table of them; nothing where there are none."""
+        return dict(value) or None
+
+    def schema(self) -> dict[str, Any]:
+        """Of its values."""
+        return {"type": "object", "additionalProperties": {"type": "number", **limits(self.bound)}}
+
+
 @dataclass(frozen=True)
 class OneOf(ValueKind):
     """One of a few words."""

@@ -44,6 +44,16 @@ def test_a_fitted_machine_file_runs_the_circle_that_was_measured(machine: Path) 
     fitted = load_machine(str(mine))
     assert fitted.table.backlash_um == pytest.approx((7.0, 0.5), abs=0.1)
     assert not {"backlash_x_um", "backlash_y_um"} & set(fitted.assumed)
+    half = {
+        each["name"]: 0.5 * (each["most"] - each["least"]) for each in found["parameters"] if each["most"] is not None
+    }
+    margins = dict(fitted.measured)
+    told_by = {
+        "backlash_x_um": "reversal_x_um",
+        "backlash_y_um": "reversal_y_um",
+        "squareness_urad": "squareness_urad",
+    }
+    assert margins == {key: pytest.approx(half[name], abs=0.001) for key, name in told_by.items()}
     assert circularity_um(mine) == pytest.approx(circularity_um(machine), abs=0.3)
     assert re.search(r"^# reversal_x: \d", mine.read_text("utf-8"), re.MULTILINE)
 
@@ -90,6 +100,7 @@ def test_lost_motion_that_no_machine_file_makes_is_told(machine: Path) -> None:
         r"at a reversal the machine file loses up to (\S+) µm more or less", " ".join(done.stdout.decode().split())
     )
     assert off is not None
+    assert "backlash_x_um" not in dict(load_machine(str(mine)).measured), "what is off was not measured so"
     assert f"# lost motion still differs by {off[1]} µm from what was measured" in mine.read_text("utf-8")
 
 

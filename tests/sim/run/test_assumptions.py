@@ -1,5 +1,6 @@
 """What a run took for granted: told in report, page and summary, and in both languages."""
 
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -12,8 +13,9 @@ from parser.program import read_program
 from sim.run.dryrun import assumptions_of
 from sim.run.report import build_report
 from sim.run.running import dry_run
-from sim.setup.machine.machine import load_machine
+from sim.setup.machine.machine import load_machine, machine_sections
 from sim.setup.scenario import load_scenario
+from sim.setup.toml.keys import toml_text
 from sim.setup.wire import DEFAULT_WIRE
 from sim.show.refusals import taken_for_granted
 from sim.show.terminal.run import print_summary
@@ -36,6 +38,7 @@ def test_a_program_alone_runs_on_the_default_machine_and_says_so(
         "program": [],
         "machine_by_default": True,
         "machine_values": list(load_machine("dk7740").assumed),
+        "machine_measured": [],
         "drawing_compared": False,
         "wire_bows": False,
     }
@@ -85,6 +88,44 @@ def test_a_mark_names_keys(tmp_path: Path, mark: str, why: str) -> None:
     file.write_text(f"{head}assumed = {mark}{rest.split(']', 1)[1]}", "utf-8")
     with pytest.raises(SettingsError, match=why):
         load_machine(str(file))
+
+
+def machine_file(folder: Path, measured: str) -> Path:
+    """The shipped machine, with backlash in X that is assumed no more."""
+    text = (MACHINES / "dk7740.toml").read_text("utf-8").replace(' "backlash_x_um",', "", 1)
+    path = folder / "own.toml"
+    path.write_text(text.replace("assumed = [", f"measured = {measured}\nassumed = [", 1), "utf-8")
+    return path
+
+
+def test_a_measured_value_stands_with_its_margin(tmp_path: Path) -> None:
+    own = load_machine(str(machine_file(tmp_path, "{ backlash_x_um = 0.25 }")))
+    run = run_text(LINE, machine=own, may_stay_open=True)
+    assumed = build_report(run)["assumptions"]
+    assert assumed["machine_measured"] == [{"key": "backlash_x_um", "value": 2.0, "within": 0.25}]
+    assert "backlash_x_um" not in assumed["machine_values"]
+    said = taken_for_granted(run)
+    assert "13 of its values are assumed" in " ".join(sentence.en for sentence in said)
+    assert any(re.fullmatch(r"Measured, with 95 % intervals: backlash.* 2 ± 0\.25 µm\.", sentence.en) for sentence in said)
+    assert any("实测值（带 95 % 区间）：" in sentence.zh and "2 ± 0.25 µm" in sentence.zh for sentence in said)
+    (tmp_path / "again.toml").write_text(toml_text(machine_sections(own)), "utf-8")
+    assert load_machine(str(tmp_path / "again.toml")) == own
+
+
+@pytest.mark.parametrize(
+    ("measured", "why"),
+    [
+        ("{ mass = 1 }", "'mass', which is no number"),
+        ("{ kind = 1 }", "'kind', which is no number"),
+        ("{ area_rate_mm2_min = -1 }", "measured: area_rate_mm2_min"),
+        ('{ area_rate_mm2_min = "1" }', "number"),
+        ("{ backlash_y_um = 0.3 }", "in assumed and in measured"),
+        ('["backlash_x_um"]', "a table of keys"),
+    ],
+)
+def test_a_margin_is_one_of_a_number_of_the_file(tmp_path: Path, measured: str, why: str) -> None:
+    with pytest.raises(SettingsError, match=why):
+        load_machine(str(machine_file(tmp_path, measured)))
 
 
 @pytest.mark.parametrize("name", sorted(path.stem for path in MACHINES.glob("*.toml")))

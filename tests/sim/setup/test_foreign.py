@@ -129,3 +129,14 @@ def test_what_is_none_is_refused_with_its_place(tmp_path: Path, text: str, why: 
 def test_a_value_out_of_bounds_is_refused_when_the_file_is_read(tmp_path: Path) -> None:
     with pytest.raises(SettingsError, match="path_acceleration"):
         begun(tmp_path, "[printer]\nmax_accel: 1e9\n")
+
+
+def test_what_carries_over_was_not_measured(tmp_path: Path) -> None:
+    """A base's margins are of its own values; a carried value has none."""
+    base = load_machine("dk7740")._replace(assumed=(), measured=(("backlash_x_um", 0.3), ("drive_damping_ratio", 0.1)))
+    foreign = read_foreign(written(tmp_path, "mill.ini", LINUXCNC))
+    path = written(tmp_path, "own.toml", toml_text(carried_over(base, foreign)))
+    assert load_machine(str(path)).measured == (("drive_damping_ratio", 0.1),)
+    only = base._replace(measured=(("backlash_x_um", 0.3),))
+    path = written(tmp_path, "own.toml", toml_text(carried_over(only, foreign)))
+    assert load_machine(str(path)).measured == ()
