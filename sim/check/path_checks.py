@@ -27,7 +27,7 @@ from sim.check.travel import rapid_findings, tab_stop_findings, too_many_steps, 
 if TYPE_CHECKING:  # most checks know no machine, and most programs do not compensate
     from sim.check.compensation.check import OwnCompensation
     from sim.check.offset import Offsetting
-    from sim.setup.machine.machine import TableModel
+    from sim.setup.machine.table import TableModel
 
 
 class Demands(NamedTuple):

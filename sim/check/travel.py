@@ -34,7 +34,7 @@ from parser.toolpath import Toolpath
 from parser.units import from_mm, mm
 
 if TYPE_CHECKING:
-    from sim.setup.machine.machine import TableModel
+    from sim.setup.machine.table import TableModel
 
 
 MAX_STEPS = 300_000_000

@@ -14,7 +14,7 @@ from sim.setup.settable import INTERPOLATOR
 
 if TYPE_CHECKING:
     from sim.run.ballbar.circle import Ballbar
-    from sim.setup.machine.machine import TableEngine
+    from sim.setup.machine.table import TableEngine
 
 
 class Speed(click.ParamType):  # type: ignore[type-arg]  # generic in newer clicks alone

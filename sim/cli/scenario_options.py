@@ -42,7 +42,7 @@ from sim.show.terminal.wrap import width_of
 if TYPE_CHECKING:
     from parser.dialect.reader import ChosenDialect
     from sim.cli.options import RegisterSet
-    from sim.setup.machine.machine import TableEngine
+    from sim.setup.machine.table import TableEngine
     from sim.setup.scenario import Scenario
 
 

@@ -36,7 +36,8 @@ from sim.measure.factor import Interval, factor_of, interval_of
 from sim.measure.passes import PassFigures
 from sim.run.prepare import Prepared, time_spread_s
 from sim.setup.expectations import Missed
-from sim.setup.machine.machine import Machine, MeasuredValue, TableModel, measured_values
+from sim.setup.machine.machine import Machine, MeasuredValue, measured_values
+from sim.setup.machine.table import TableModel
 from sim.setup.scenario import Scenario
 from sim.setup.technology import LEVEL
 from sim.table.history import History

@@ -14,7 +14,7 @@ import pymunk
 
 from parser.controller_words import Axis as AxisName
 from parser.geometry.curves import Floats
-from sim.setup.machine.machine import TableModel
+from sim.setup.machine.table import TableModel
 from sim.table.axis import Axis, AxisDemand, Noted
 from sim.table.course import STILL_UM
 from sim.table.history import VALUES, Bins, Limits, PeakPlace, Record, take_peak, widened

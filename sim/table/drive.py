@@ -7,7 +7,7 @@ import math
 from typing import NamedTuple
 
 from sim.base.units import engine_force, engine_stiffness, engine_viscosity
-from sim.setup.machine.machine import TableModel
+from sim.setup.machine.table import TableModel
 
 
 class Drive(NamedTuple):

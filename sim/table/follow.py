@@ -10,7 +10,7 @@ from controller.stepping.pulses import Pulses
 from parser.controller_words import Axis
 from parser.geometry.curves import Floats, Ints
 from parser.units import from_mm
-from sim.setup.machine.machine import Geometry, TableEngine, TableModel
+from sim.setup.machine.table import Geometry, TableEngine, TableModel
 from sim.table.bodies import Bodies, InBodies
 from sim.table.drive import drives_of
 from sim.table.history import History, history_of

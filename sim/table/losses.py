@@ -11,7 +11,7 @@ from parser.findings.findings import Fact, Finding, Value, file_order
 from parser.program import Program
 from parser.units import mm
 from sim.base.units import newtons
-from sim.setup.machine.machine import Motor
+from sim.setup.machine.table import Motor
 from sim.table.drive import Drive
 from sim.table.history import PEAK_COLUMNS, Record
 from sim.table.ticks import Ticks

@@ -12,7 +12,7 @@ from controller.compiled.loops import compiled, loop_part
 from controller.stepping.pulses import Pulses
 from parser.geometry.curves import Floats
 from sim.base.units import engine_force
-from sim.setup.machine.machine import Motor
+from sim.setup.machine.table import Motor
 from sim.table.drive import Drive
 
 

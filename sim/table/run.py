@@ -8,7 +8,7 @@ from typing import Any, Protocol, Self
 import numpy as np
 
 from parser.geometry.curves import Floats
-from sim.setup.machine.machine import TableModel
+from sim.setup.machine.table import TableModel
 from sim.table.axis import Axis, AxisDemand, Noted, State, standing
 from sim.table.course import Body
 from sim.table.drive import drives_of

@@ -14,7 +14,7 @@ from controller.motion.plan import Plan
 from parser.geometry.along import directions
 from parser.geometry.curves import Floats, Ints
 from parser.toolpath import Toolpath
-from sim.setup.machine.machine import TableModel
+from sim.setup.machine.table import TableModel
 from sim.table.drive import drives_of
 
 STEP_RAD = 0.125

@@ -17,7 +17,8 @@ from controller.motion.limits import Feeds
 from parser.program import parse_program
 from sim.base.progress import silent
 from sim.run.ballbar.circle import circle_test, run_test
-from sim.setup.machine.machine import Machine, TableEngine, load_machine
+from sim.setup.machine.machine import Machine, load_machine
+from sim.setup.machine.table import TableEngine
 from sim.table.follow import Following
 from sim.table.motion import Motion, Moved, TableRun, driven, motion_of
 from sim.table.ticks import Sampling

@@ -11,7 +11,7 @@ import numba
 import numpy as np
 
 from parser.geometry.curves import Floats
-from sim.setup.machine.machine import TableModel
+from sim.setup.machine.table import TableModel
 
 TICKS_S = (1e-7, 1e-8, 1e-9)
 """Ticks of which the last two that are tried have to agree."""

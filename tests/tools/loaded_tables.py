@@ -6,7 +6,7 @@ import numpy as np
 
 from controller.stepping.pulses import Pulses
 from parser.geometry.curves import Floats
-from sim.setup.machine.machine import Motor, TableModel
+from sim.setup.machine.table import Motor, TableModel
 
 UNTIL_S = 0.15
 SAMPLE_S = 7.5e-4

@@ -1,29 +1,22 @@
 """Machine files: table, motor, controller and cutting rates of one machine, read from TOML and written as it.
 
-The sections of a machine file: ``[table]`` and ``[motor]``, what is moved and resists, and ``[controller]``.
-
-The ``[table]`` and ``[motor]`` sections of a machine file: what is moved, what moves it, and what resists.
-
 The ``[controller]`` section of a machine file: limits of motion, the rule at junctions, and the interpolator.
 """
 
 import math
 from collections.abc import Callable, Mapping
 from importlib import resources
-from itertools import pairwise
 from pathlib import Path
-from typing import Any, Literal, NamedTuple
-
-import numpy as np
+from typing import Any, NamedTuple
 
 from controller.card.core.settings import UM_S3_PER_PULSE_MS3, CardSettings
 from controller.host.entries import Interpolation
 from controller.motion.limits import Feeds, Junction, JunctionDeviation, MotionLimits, SlowAt, StopEach, Through
 from parser.dialect.reader import Registers
 from parser.findings.errors import Message, SettingsError
-from parser.geometry.curves import Floats
-from parser.units import from_mm, mm
+from parser.units import from_mm
 from sim.setup.dialect import REGISTERS
+from sim.setup.machine.table import MOTOR, TABLE, TableEngine, TableModel, read_table
 from sim.setup.obstacles import ARM, Outline
 from sim.setup.settable import INTERPOLATOR
 from sim.setup.toml.keys import Key, Section, WrittenSection
@@ -37,244 +30,8 @@ from sim.setup.toml.kinds import (
     Number,
     OneOf,
     Text,
-    ValueKind,
-    limits,
 )
-from sim.setup.toml.reader import AREA_RATE_MM2_MIN, Bound, load_toml, number, section
-
-_FORCE_N = Bound(0.1, 1e6)
-_RATE_HZ = Bound(0.0, 1e7)
-_TRAVEL = Number(Bound(1.0, 10_000.0), "mm")
-_MASS = Number(Bound(0.01, 100_000.0), "kg")
-_FRICTION = Number(Bound(0.0, 1e6), "N")
-_VISCOUS = Number(Bound(0.0, 1e6), "N s/mm")
-_SKEW = Bound(-1e4, 1e4)
-_PLACE_MM = Bound(-10_000.0, 10_000.0)
-_PITCH_UM = Bound(-1e4, 1e4)
-_BACKLASH = Number(Bound(0.0, 1e4), "µm")
-_OF_KIND = {"stepper": "electrical_period_um", "servo": "following_error_limit_um"}
-
-
-class Motor(NamedTuple):
-    """What turns the screw of each axis.
-
-    Attributes
-    ----------
-    kind
-        A stepper slips by whole electrical periods past its pull-out, a servo trips on its following error.
-    step_time_s
-        Time the motor takes for one step: it turns at constant speed from one place to the next.
-    electrical_period_um
-        Way of the table in one electrical period: six beats of 1 µm of a three-phase stepper with six beats.
-    following_error_limit_um
-        Lag at which a servo trips; infinite for a stepper.
-    force_curve
-        (step rate Hz, force N) from standstill on, rates rising; the force is linear between and constant past the
-        last.
-    """
-
-    kind: Literal["stepper", "servo"]
-    step_time_s: float
-    electrical_period_um: float
-    following_error_limit_um: float
-    force_curve: tuple[tuple[float, float], ...]
-
-    @property
-    def may_trip(self) -> bool:
-        """Whether it is a servo."""
-        return self.kind == "servo"
-
-
-Points = tuple[tuple[float, float], ...]
-"""Places mm and errors µm, the places rising."""
-
-
-class Geometry(NamedTuple):
-    """How far slides stand from where their screws say: what no drive can tell, and only an outer measure finds.
-
-    Attributes
-    ----------
-    squareness_urad
-        By how much Y leans: X moves by as much of a way in Y, the other way.
-    scale_ppm
-        By how much each axis moves too far.
-    pitch_error
-        Of each axis places from the corner of the travel, mm, and by how much it stands too far there, µm; straight
-        between them, and as at the last one beyond.
-    """
-
-    squareness_urad: float = 0.0
-    scale_ppm: tuple[float, float] = (0.0, 0.0)
-    pitch_error: tuple[Points, Points] = ((), ())
-
-    def placed(self, place_um: Floats, start_um: Floats) -> Floats:
-        """Where places (n, 2) of the slides, by their screws, are; from the corner of the travel, µm.
-
-        The program's start (2,) is where the wire is brought by eye or by touch: there nothing is off.
-        """
-        if self == Geometry():
-            return place_um
-        by = place_um - start_um
-        off: Floats = 1e-6 * np.array(self.scale_ppm) * by
-        off[:, 0] -= 1e-6 * self.squareness_urad * by[:, 1]
-        for axis, points in enumerate(self.pitch_error):
-            if points:
-                at, error = np.array(points).T
-                of_start = float(np.interp(mm(float(start_um[axis])), at, error))
-                off[:, axis] += np.interp(mm(place_um[:, axis]), at, error) - of_start
-        placed: Floats = place_um + off
-        return placed
-
-
-class TableModel(NamedTuple):
-    """Moving masses, drives and what resists them; mm, kg, N as named, pairs for X and Y.
-
-    The X drive moves saddle and carriage, the Y drive the carriage.
-    """
-
-    travel_x_mm: float
-    travel_y_mm: float
-    saddle_mass_kg: float
-    carriage_mass_kg: float
-    drive_stiffness_n_um: float
-    drive_damping_ratio: float
-    motor: Motor
-    friction_n: tuple[float, float] = (0.0, 0.0)
-    viscous_n_s_mm: tuple[float, float] = (0.0, 0.0)
-    backlash_um: tuple[float, float] = (0.0, 0.0)
-    geometry: Geometry = Geometry()
-
-    @property
-    def moved_kg(self) -> tuple[float, float]:
-        """Mass that the X and the Y drive have to move."""
-        return self.saddle_mass_kg + self.carriage_mass_kg, self.carriage_mass_kg
-
-
-class _ForceAtRate(ValueKind):
-    """Points [step rate Hz, force N] of a curve that begins with the force limit at standstill."""
-
-    name = "force-at-rate"
-
-    def checked(self, table: Mapping[str, Any], key: str, where: str) -> tuple[tuple[float, float], ...]:
-        """Its points."""
-        value, where = table[key], f"{where}: {key}"
-        if not isinstance(value, list) or not all(isinstance(point, list) and len(point) == 2 for point in value):
-            raise SettingsError("no-list-of-rates", where=where, found=value)
-        points = tuple(
-            (number(rate, _RATE_HZ, f"{where}: Hz"), number(force, _FORCE_N, f"{where}: N")) for rate, force in value
-        )
-        rates = (0.0, *(rate for rate, _ in points))
-        if any(later <= earlier for earlier, later in pairwise(rates)):
-            raise SettingsError("rates-do-not-rise", where=where, rates=list(rates[1:]))
-        return points
-
-    def written(self, value: Any) -> list[list[float]]:
-        """A list of lists."""
-        return [list(point) for point in value]
-
-    def schema(self) -> dict[str, Any]:
-        """Of its values."""
-        rate, force = ({"type": "number", **limits(bound)} for bound in (_RATE_HZ, _FORCE_N))
-        point = {"type": "array", "minItems": 2, "maxItems": 2, "prefixItems": [rate, force]}
-        return {"type": "array", "items": point}
-
-
-def _pitch_error(axis: int) -> Callable[[TableModel], Points | None]:
-    """How the pitch errors of an axis are found; there are none where nobody measured them."""
-    return lambda table: table.geometry.pitch_error[axis] or None
-
-
-class _PitchError(ValueKind):
-    """Points [place mm, error µm], the places rising."""
-
-    name = "pitch-error"
-
-    def checked(self, table: Mapping[str, Any], key: str, where: str) -> Points:
-        """Its points."""
-        value, where = table[key], f"{where}: {key}"
-        if not isinstance(value, list) or not all(isinstance(point, list) and len(point) == 2 for point in value):
-            raise SettingsError("no-list-of-pitch-errors", where=where, found=value)
-        points = tuple(
-            (number(at, _PLACE_MM, f"{where}: mm"), number(off, _PITCH_UM, f"{where}: µm")) for at, off in value
-        )
-        if any(later[0] <= earlier[0] for earlier, later in pairwise(points)):
-            raise SettingsError("places-do-not-rise", where=where)
-        return points
-
-    def written(self, value: Any) -> list[list[float]]:
-        """A list of lists."""
-        return [list(point) for point in value]
-
-    def schema(self) -> dict[str, Any]:
-        """Of its values."""
-        place, error = ({"type": "number", **limits(bound)} for bound in (_PLACE_MM, _PITCH_UM))
-        point = {"type": "array", "minItems": 2, "maxItems": 2, "prefixItems": [place, error]}
-        return {"type": "array", "items": point}
-
-
-TABLE = Section(
-    "table",
-    (
-        Key("travel_x_mm", _TRAVEL),
-        Key("travel_y_mm", _TRAVEL),
-        Key("saddle_mass_kg", _MASS),
-        Key("carriage_mass_kg", _MASS),
-        Key("drive_stiffness_n_um", Number(Bound(1e-3, 1e5), "N/µm")),
-        Key("drive_damping_ratio", Number(Bound(0.01, 10.0))),
-        Key("friction_x_n", _FRICTION, "friction_n.0", default=0.0),
-        Key("friction_y_n", _FRICTION, "friction_n.1", default=0.0),
-        Key("viscous_x_n_s_mm", _VISCOUS, "viscous_n_s_mm.0", default=0.0),
-        Key("viscous_y_n_s_mm", _VISCOUS, "viscous_n_s_mm.1", default=0.0),
-        Key("backlash_x_um", _BACKLASH, "backlash_um.0", default=0.0),
-        Key("backlash_y_um", _BACKLASH, "backlash_um.1", default=0.0),
-        Key("squareness_urad", Number(_SKEW, "µrad"), "geometry.squareness_urad", default=0.0),
-        Key("scale_x_ppm", Number(_SKEW, "ppm"), "geometry.scale_ppm.0", default=0.0),
-        Key("scale_y_ppm", Number(_SKEW, "ppm"), "geometry.scale_ppm.1", default=0.0),
-        Key("pitch_error_x", _PitchError(), default=(), get=_pitch_error(0)),
-        Key("pitch_error_y", _PitchError(), default=(), get=_pitch_error(1)),
-        Key("drive_force_limit_n", Number(_FORCE_N, "N"), get=lambda table: table.motor.force_curve[0][1]),
-    ),
-    fills="table",
-)
-
-MOTOR = Section(
-    "motor",
-    (
-        Key("kind", OneOf(tuple(_OF_KIND)), default="stepper"),
-        Key("step_time_ms", Number(Bound(0.0, 1e3), "ms", MS_AS_S), "step_time_s", default=2.0),
-        Key(
-            "electrical_period_um",
-            Number(Bound(0.1, 1e4), "µm"),
-            default=6.0,
-            get=lambda motor: motor.electrical_period_um if motor.kind == "stepper" else None,
-        ),
-        Key("following_error_limit_um", Number(Bound(0.1, 1e6), "µm"), default=math.inf),
-        Key("force_at_rate", _ForceAtRate(), default=(), get=lambda motor: motor.force_curve[1:] or None),
-    ),
-    fills="table.motor",
-)
-
-
-def read_table(content: Mapping[str, Any], where: str) -> TableModel:
-    """Table of the sections ``[table]`` and ``[motor]`` of a machine file. SettingsError names the file and the key."""
-    value = TABLE.read_in(content, where)
-    force_n = value.pop("drive_force_limit_n")
-    pitch_error = tuple(value.pop(f"pitch_error_{axis}") for axis in "xy")
-    value["geometry"] = Geometry(pitch_error=pitch_error, **value["geometry"])
-    return TableModel(motor=_motor(section(content, "motor", where), force_n, f"{where}: [motor]"), **value)
-
-
-def _motor(table: Mapping[str, Any], force_n: float, where: str) -> Motor:
-    """Motor of a section; `force_n` is what it pulls at standstill."""
-    value = MOTOR.read(table, where)
-    kind = value["kind"]
-    for of, key in _OF_KIND.items():
-        if kind != of and key in table:
-            raise SettingsError("key-of-another-kind", where=where, key=key, of=of, kind=kind)
-    if kind == "servo" and "following_error_limit_um" not in table:
-        raise SettingsError("following-error-limit-missing", where=where)
-    return Motor(force_curve=((0.0, force_n), *value.pop("force_at_rate")), **value)
-
+from sim.setup.toml.reader import AREA_RATE_MM2_MIN, Bound, load_toml
 
 _SPEED = Bound(1e-3, 1e3)
 _FEED = Number(_SPEED, "mm/s", MM_AS_UM)
@@ -401,10 +158,6 @@ TOP = Section(
 CUTTING = Section("cutting", (Key("area_rate_mm2_min", Number(AREA_RATE_MM2_MIN, "mm²/min")),))
 SECTIONS = (TOP, TABLE, MOTOR, CONTROLLER, CUTTING, ARM)
 """Sections of a machine file."""
-
-
-TableEngine = Literal["compiled", "pymunk"]
-"""What works out the motion of a table: a compiled loop, or the same in Python with bodies that pymunk moves."""
 
 
 class Machine(NamedTuple):

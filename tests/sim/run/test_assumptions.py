@@ -106,7 +106,9 @@ def test_a_measured_value_stands_with_its_margin(tmp_path: Path) -> None:
     assert "backlash_x_um" not in assumed["machine_values"]
     said = taken_for_granted(run)
     assert "13 of its values are assumed" in " ".join(sentence.en for sentence in said)
-    assert any(re.fullmatch(r"Measured, with 95 % intervals: backlash.* 2 ± 0\.25 µm\.", sentence.en) for sentence in said)
+    assert any(
+        re.fullmatch(r"Measured, with 95 % intervals: backlash.* 2 ± 0\.25 µm\.", sentence.en) for sentence in said
+    )
     assert any("实测值（带 95 % 区间）：" in sentence.zh and "2 ± 0.25 µm" in sentence.zh for sentence in said)
     (tmp_path / "again.toml").write_text(toml_text(machine_sections(own)), "utf-8")
     assert load_machine(str(tmp_path / "again.toml")) == own

@@ -18,8 +18,8 @@ from sim.setup import scenario as scenarios
 from sim.setup import wire as wires
 from sim.setup.key_tables import renewed
 from sim.setup.key_words import words, words_of
-from sim.setup.machine import machine
 from sim.setup.machine import machine as machines
+from sim.setup.machine import table
 from sim.setup.machine.machine import load_machine, machine_sections
 from sim.setup.quiz import QUIZ
 from sim.setup.scenario import Scenario, load_scenario, scenario_sections
@@ -74,9 +74,9 @@ def test_a_key_added_to_the_table_is_read_written_shown_and_documented(
     said = {"en": "pitch error of X", "zh": "X 螺距误差", "meaning": "error of the screw"}
     x = Key("pitch_error_x_um", pitch, "pitch_error_um.0", default=0.0)
     y = Key("pitch_error_y_um", pitch, "pitch_error_um.1", default=0.0)
-    fields = (*machine.TableModel._fields, "pitch_error_um")
-    monkeypatch.setattr(machine, "TableModel", namedtuple("TableModel", fields))
-    add(machine, machine.TABLE, {x: said, y: {**said, "en": "pitch error of Y"}})
+    fields = (*table.TableModel._fields, "pitch_error_um")
+    monkeypatch.setattr(table, "TableModel", namedtuple("TableModel", fields))
+    add(table, table.TABLE, {x: said, y: {**said, "en": "pitch error of Y"}})
 
     read = load_machine(machine_of(tmp_path / "m.toml", "pitch_error_x_um = 3.5"))
     assert read.table[-1] == (3.5, 0.0)
@@ -123,7 +123,7 @@ def test_a_key_added_to_the_wire_is_read_written_shown_and_documented(
 
 def test_a_key_without_a_place_in_what_it_fills_is_no_key(add: Add, tmp_path: Path) -> None:
     said = {"en": "lost", "zh": "无", "meaning": "kept by nothing"}
-    add(machine, machine.TABLE, {Key("lost_um", Number(Bound(0.0, 1.0)), default=0.0): said})
+    add(table, table.TABLE, {Key("lost_um", Number(Bound(0.0, 1.0)), default=0.0): said})
     with pytest.raises(TypeError, match="lost_um"):
         load_machine(machine_of(tmp_path / "m.toml", ""))
 

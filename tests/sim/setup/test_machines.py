@@ -11,7 +11,8 @@ from places import MACHINES, ROOT
 from parser.controller_words import Axis
 from parser.findings.errors import SettingsError
 from parser.units import from_mm
-from sim.setup.machine.machine import Machine, TableModel, load_machine
+from sim.setup.machine.machine import Machine, load_machine
+from sim.setup.machine.table import TableModel
 
 SHIPPED = {path.stem: load_machine(path.stem) for path in sorted(MACHINES.glob("*.toml"))}
 STEPPERS = {name: machine for name, machine in SHIPPED.items() if machine.table.motor.kind == "stepper"}

@@ -10,7 +10,7 @@ from fine_table import Fine, fine_axis
 from loaded_tables import SAMPLE_S, UNTIL_S, boundless_model, pulses_of, random_model, random_steps
 from table_runs import Drawn, draw, even_ticks
 
-from sim.setup.machine.machine import TableModel
+from sim.setup.machine.table import TableModel
 from sim.table.history import QUANTITIES
 
 WITHIN_UM = 0.02

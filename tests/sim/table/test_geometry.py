@@ -12,7 +12,8 @@ from sim.base.progress import silent
 from sim.measure.fit.circle import CircleFit, fit_circle
 from sim.run.ballbar.circle import circle_test, run_test
 from sim.run.ballbar.fitted import fitted_machine
-from sim.setup.machine.machine import Geometry, Machine, load_machine, machine_sections
+from sim.setup.machine.machine import Machine, load_machine, machine_sections
+from sim.setup.machine.table import Geometry
 from sim.setup.toml.keys import toml_text
 
 SQUARE = "B10000B0B10000GXL1 B0B10000B10000GYL2 B10000B0B10000GXL3 B0B10000B10000GYL4 DD"

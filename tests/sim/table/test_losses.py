@@ -20,7 +20,8 @@ from table_runs import (
 )
 
 from controller.motion.limits import Feeds
-from sim.setup.machine.machine import Machine, Motor, TableModel, load_machine
+from sim.setup.machine.machine import Machine, load_machine
+from sim.setup.machine.table import Motor, TableModel
 from sim.table.losses import Loss
 
 DAMPED = MODEL._replace(drive_damping_ratio=0.7)

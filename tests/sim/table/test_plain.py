@@ -10,7 +10,7 @@ from plain_table import TICK_S, PlainAxis, plain_motor, plain_places
 from table_runs import STEPPER, draw, even_ticks
 
 from controller.stepping.pulses import Pulses
-from sim.setup.machine.machine import TableModel
+from sim.setup.machine.table import TableModel
 
 UNTIL_S, LAST_S, FINE_S = 0.1, 0.08, 5e-5
 FINER_S = 2e-5  # where it slips: a slip comes up to a tick late

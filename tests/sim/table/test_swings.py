@@ -11,7 +11,8 @@ from table_runs import MODEL, even_ticks
 from controller.compiled.loops import compiled
 from parser.controller_words import Axis as AxisName
 from parser.geometry.curves import Floats
-from sim.setup.machine.machine import Motor, TableModel, load_machine
+from sim.setup.machine.machine import load_machine
+from sim.setup.machine.table import Motor, TableModel
 from sim.table.axis import Axis, AxisDemand, Leg, State, next_leg, turned_to
 from sim.table.history import PEAK_COLUMNS, VALUES, Record
 from sim.table.losses import Slip
