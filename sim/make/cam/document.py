@@ -6,6 +6,7 @@ What each figure of a made program comes to: blocks, length and time, and the ti
 import json
 import math
 from collections.abc import Iterator
+from itertools import pairwise
 from typing import NamedTuple, Protocol
 
 import numpy as np
@@ -14,6 +15,7 @@ from parser import __version__
 from parser.drawing.model import Entity, FitFigures, LeftOut
 from parser.findings.catalogue import Language, Remark, remark_text, texts
 from parser.findings.findings import Finding
+from parser.shape.passes import Pass
 from parser.toolpath import Toolpath
 from parser.units import mm
 from sim.base.units import known, place, rounded
@@ -86,11 +88,32 @@ def _written(toolpath: Toolpath, rows: Spans) -> FigureSum:
 def _timed(figure_sum: FigureSum, run: DryRun, rows: Spans, cut: FigureCut) -> FigureSum:
     time_s = run.block_time_s
     found = [each for each in run.passes.passes if any(first <= each.first < past for first, past in rows)]
-    if any(each.is_tab for each in found):
-        found.sort(key=lambda each: each.is_tab)  # as the plan has them: what is cut off stands last
-    pass_s = [float(np.sum(time_s[each.first : each.last + 1])) for each in found]
+    stretches = _as_planned(found, [stop.after for stop in run.toolpath.stops], cut)
+    pass_s = [float(np.sum(time_s[first:past])) for first, past in stretches]
     times = tuple(pass_s) if len(pass_s) == len(cut.all_passes) else ()
     return figure_sum._replace(time_s=float(sum(np.sum(time_s[first:past]) for first, past in rows)), pass_s=times)
+
+
+def _as_planned(found: list[Pass], stops: list[int], cut: FigureCut) -> Spans:
+    """First row and past the last of each pass of a figure as the plan has them: what is cut off stands last.
+
+    A run takes a single pass and the cut of its tab, which goes on behind a stop, for one pass. Where the wire goes
+    back over the tab that it has cut, that is part of the cut-off or of the way out, as in the plan.
+    """
+    passes: Spans = []
+    cut_off: Spans = []
+    is_back_in_it = any(np.allclose(each.along.start_um[0], each.along.end_um[-1]) for each in cut.cut_off)
+    for each in found:
+        past = each.last + 1
+        inside = [stop for stop in stops if each.first < stop < past]
+        if each.is_tab and cut_off and cut_off[-1][1] == each.first:
+            cut_off[-1] = (cut_off[-1][0], past if is_back_in_it else each.first)
+        elif each.is_tab:
+            cut_off.append((each.first, past))
+        else:
+            passes.append((each.first, inside[0] if inside else past))
+            cut_off += pairwise([*inside, past])
+    return [*passes, *cut_off]
 
 
 class Say(Protocol):

@@ -121,6 +121,28 @@ def test_programs_in_rounds_are_proved(tmp_path: Path, name: str, wanted: Wanted
     sums = figure_sums(done)
     assert sum(one.blocks for one in sums) == int(np.count_nonzero(~done.program.toolpath.is_jump))
     assert all(len(one.spans) > 1 for one in sums[:2])
+    _are_timed(done)
+
+
+def _are_timed(done: MadeProgram) -> None:
+    """Each pass takes as long as its length does at the feed of the cuts, with what rounding and corners add."""
+    assert done.proof is not None
+    run = done.proof.run
+    assert run is not None
+    feed_um_s = run.scenario.machine.feeds(run.scenario.thickness_mm).cut_um_s
+    for cut, of in zip(done.plan.cuts, figure_sums(done), strict=True):
+        lengths = [float(each.along.length_um.sum()) for each in cut.all_passes]
+        assert [length / feed_um_s for length in lengths] == pytest.approx(of.pass_s, rel=0.02), cut.figure.number
+
+
+@pytest.mark.parametrize("wanted", [TO_3B, TO_ISO], ids=["3b", "iso"])
+@pytest.mark.parametrize("passes_um", [(), (130.0, 100.0), (140.0, 120.0, 100.0)], ids=["one", "two", "three"])
+@pytest.mark.parametrize("slug_tab_um", [0.0, 1500.0])
+def test_each_pass_and_each_cut_off_has_its_time(
+    tmp_path: Path, passes_um: tuple[float, ...], slug_tab_um: float, wanted: Wanted
+) -> None:
+    """By an odd number of passes the tab is cut on from their end, by an even one there and back."""
+    _are_timed(made(tmp_path, Making(passes_um=passes_um, slug_tab_um=slug_tab_um, tab_um=2500.0), wanted))
 
 
 def test_a_hole_alone_is_cut_off_without_being_threaded_again(tmp_path: Path) -> None:
