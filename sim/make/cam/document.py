@@ -88,13 +88,13 @@ def _written(toolpath: Toolpath, rows: Spans) -> FigureSum:
 def _timed(figure_sum: FigureSum, run: DryRun, rows: Spans, cut: FigureCut) -> FigureSum:
     time_s = run.block_time_s
     found = [each for each in run.passes.passes if any(first <= each.first < past for first, past in rows)]
-    stretches = _as_planned(found, [stop.after for stop in run.toolpath.stops], cut)
+    stretches = _as_planned(found, rows, [stop.after for stop in run.toolpath.stops], cut)
     pass_s = [float(np.sum(time_s[first:past])) for first, past in stretches]
     times = tuple(pass_s) if len(pass_s) == len(cut.all_passes) else ()
     return figure_sum._replace(time_s=float(sum(np.sum(time_s[first:past]) for first, past in rows)), pass_s=times)
 
 
-def _as_planned(found: list[Pass], stops: list[int], cut: FigureCut) -> Spans:
+def _as_planned(found: list[Pass], rows: Spans, stops: list[int], cut: FigureCut) -> Spans:
     """First row and past the last of each pass of a figure as the plan has them: what is cut off stands last.
 
     A run takes a single pass and the cut of its tab, which goes on behind a stop, for one pass. Where the wire goes
@@ -102,12 +102,13 @@ def _as_planned(found: list[Pass], stops: list[int], cut: FigureCut) -> Spans:
     """
     passes: Spans = []
     cut_off: Spans = []
-    is_back_in_it = any(np.allclose(each.along.start_um[0], each.along.end_um[-1]) for each in cut.cut_off)
+    is_there_and_back = any(np.allclose(each.along.start_um[0], each.along.end_um[-1]) for each in cut.cut_off)
     for each in found:
         past = each.last + 1
         inside = [stop for stop in stops if each.first < stop < past]
-        if each.is_tab and cut_off and cut_off[-1][1] == each.first:
-            cut_off[-1] = (cut_off[-1][0], past if is_back_in_it else each.first)
+        is_again = bool(cut_off) and any(low <= cut_off[-1][0] and past <= high for low, high in rows)
+        if each.is_tab and is_again:
+            cut_off[-1] = (cut_off[-1][0], past if is_there_and_back else cut_off[-1][1])
         elif each.is_tab:
             cut_off.append((each.first, past))
         else:
