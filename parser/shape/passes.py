@@ -115,15 +115,30 @@ def leads_of(passes: Passes, toolpath: Toolpath) -> Bools:
     return np.asarray((passes.of_row < 0) & ~toolpath.is_jump)
 
 
+def own_numbers(passes: Passes) -> Ints:
+    """(k,) which pass over its edge each one is, from 1, or which over its tab: both are counted by themselves.
+
+    A trim behind the cut of a tab is the second pass still, as in a program that cuts its tab last.
+    """
+    counted: dict[tuple[int, bool], int] = {}
+    numbers = np.ones(len(passes.passes), dtype=np.int64)
+    for at, pass_ in enumerate(passes.passes):
+        counted[pass_.edge, pass_.is_tab] = numbers[at] = counted.get((pass_.edge, pass_.is_tab), 0) + 1
+    return numbers
+
+
+def most_passes(passes: Passes) -> int:
+    """How many passes the edge with the most has, those over its tab left out; 1 where there are none."""
+    is_tab = np.array([pass_.is_tab for pass_ in passes.passes], dtype=np.bool_)
+    return int(own_numbers(passes)[~is_tab].max(initial=1))
+
+
 def pass_numbers(toolpath: Toolpath, passes: Passes) -> Ints:
-    """(n,) which cut over its edge each row is of, from 1; over a tab they are counted anew, as it is cut in the solid.
+    """(n,) which pass over its edge or its tab each row is of, from 1: a tab is cut in the solid, as by a first one.
 
     A lead is of the pass behind it in its contour, else of the one before it; where there is none it is of a first one.
     """
-    counted: dict[tuple[int, bool], int] = {}
-    of_pass = np.ones(len(passes.passes) + 1, dtype=np.int64)
-    for at, pass_ in enumerate(passes.passes):
-        counted[pass_.edge, pass_.is_tab] = of_pass[at] = counted.get((pass_.edge, pass_.is_tab), 0) + 1
+    of_pass = np.append(own_numbers(passes), 1)  # the last for rows of no pass, −1
     number, known = of_pass[passes.of_row], passes.of_row >= 0
     for first, past in runs(toolpath).tolist():
         at = np.flatnonzero(known[first:past]) + first

@@ -9,7 +9,7 @@ import numpy as np
 from parser.geometry.along import directions
 from parser.program import Program
 from parser.shape.contours import contour_rows, runs
-from parser.shape.passes import find_passes
+from parser.shape.passes import find_passes, most_passes
 from parser.toolpath import Toolpath
 from parser.units import from_mm, mm
 from sim.run.prepare import prepare, time_spread_s
@@ -53,7 +53,8 @@ class Predicted(NamedTuple):
     Attributes
     ----------
     name, length_mm, height_mm, passes
-        Its file; the way that is cut, all passes; the thickness of the work; the most passes over one edge.
+        Its file; the way that is cut, all passes; the thickness of the work; the most passes over one edge, without
+        those over its tab.
     terms
         What it takes, in parts.
     technology, less_min, more_min
@@ -90,14 +91,13 @@ def predicted(program: Program, scenario: Scenario, shop: Shop) -> Predicted:
     jump_min = float(path.length_um[~cut].sum()) / feeds.jump_um_s / 60.0
     starts = len(runs(path))
     found = find_passes(path) if ready.offset is None else ready.offset.edge_passes
-    passes = max((pass_.number for pass_ in found.passes), default=1)
     spread_s = (0.0, 0.0) if scenario.technology is None else time_spread_s(path, found, row_s, scenario)
     counts = {"threading": max(starts - 1, 0), "pierce": starts, "corners": _corners(path)}
     return Predicted(
         name=program.name,
         length_mm=mm(float(path.length_um[cut].sum())),
         height_mm=scenario.thickness_mm,
-        passes=passes,
+        passes=most_passes(found),
         terms=tuple(_terms(cut_min, jump_min, counts, scenario, shop)),
         technology=scenario.technology,
         less_min=spread_s[0] / 60.0,

@@ -15,7 +15,7 @@ from parser.findings.catalogue import LANGUAGES, Bilingual, remark_text
 from parser.findings.errors import DrycutError
 from parser.geometry.curves import Bools, Ints
 from parser.program import load_program, moving
-from parser.shape.passes import find_passes
+from parser.shape.passes import find_passes, own_numbers
 from parser.toolpath import Toolpath
 from parser.units import mm
 from sim.base.units import place
@@ -137,10 +137,12 @@ def _passes_of_rows(path: Toolpath, rows: list[tuple[FigureCut, Spans]], placeme
     What is cut of a tab counts as the last pass.
     """
     passes = find_passes(path)
-    number = np.array([*(each.number for each in passes.passes), 0], dtype=np.int64)[passes.of_row]
+    number = np.append(own_numbers(passes), 0)[passes.of_row]
+    is_tab = np.array([*(each.is_tab for each in passes.passes), False])[passes.of_row]
     is_left = np.array([*(each.is_back for each in passes.passes), False])[passes.of_row]
     for cut, (first, past) in ((cut, span) for cut, spans in rows for span in spans):
-        number[first:past] = np.minimum(number[first:past], len(cut.passes))
+        last = len(cut.passes)
+        number[first:past] = np.where(is_tab[first:past], last, np.minimum(number[first:past], last))
         is_left[first:past] ^= (cut.side > 0) != placement.mirror
     return number, is_left
 

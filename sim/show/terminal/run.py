@@ -11,7 +11,7 @@ from controller.offset.chain import RowOrigin
 from parser.findings.catalogue import Language, length, remark_text
 from parser.findings.findings import ReadAs
 from parser.shape.contours import Contour
-from parser.shape.passes import Pass
+from parser.shape.passes import Pass, most_passes
 from parser.text.source import BlockNames
 from parser.units import mm, mm_text
 from sim.base.units import in_figures
@@ -206,7 +206,7 @@ def _technology(run: DryRun, tell: Words) -> list[Row]:
     technology, material = run.scenario.technology, run.scenario.cut_material
     if technology is None or material is None:
         return []
-    most = max((pass_.number for pass_ in run.passes.passes), default=1)
+    most = most_passes(run.passes)
     known = [each for each in run.scenario.pass_technologies if each.number <= most]
     rows = [(tell("summary.technology-pass", number=each.number), _of_pass(each, tell)) for each in known]
     if known and most > known[-1].number:

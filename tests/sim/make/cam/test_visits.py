@@ -16,7 +16,9 @@ from sim.make.cam.maker import MadeProgram, made_program
 from sim.make.cam.model import CutPlan
 from sim.make.wanted import Wanted
 from sim.measure.compare.rings import polygon
+from sim.run.times.predicted import predicted
 from sim.setup.making import DirectionWish, LayerWish, Making
+from sim.setup.shop import Shop
 
 TRIMMED = (130.0, 100.0)
 TO_3B = Wanted("3b")
@@ -150,7 +152,9 @@ def test_each_pass_and_each_cut_off_has_its_time(
 ) -> None:
     """By an odd number of passes the tab is cut on from their end, by an even one there and back."""
     making = Making(passes_um=passes_um, slug_tab_um=slug_tab_um, tab_um=2500.0, lag_um=lag_um)
-    _are_timed(made(tmp_path, making, wanted))
+    done = made(tmp_path, making, wanted)
+    _are_timed(done)
+    assert predicted(done.program, plain_scenario(), Shop()).passes == max(len(passes_um), 1), "a tab is no pass"
 
 
 def test_a_hole_alone_is_cut_off_without_being_threaded_again(tmp_path: Path) -> None:

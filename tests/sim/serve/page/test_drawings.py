@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from drawings_dxf import drawn
 from ezdxf.layouts import Modelspace
@@ -164,6 +165,25 @@ def test_plans_are_those_that_the_maker_has_and_lie_as_the_drawing_does(served: 
     x, y = plan["path"]["place_x_um"], plan["path"]["place_y_um"]
     assert laid["path"]["place_x_um"] == pytest.approx([1000.0 - each for each in y], abs=1e-3)
     assert laid["path"]["place_y_um"] == pytest.approx(x, abs=1e-3)
+
+
+def test_a_plan_in_rounds_counts_the_passes_over_each_edge_as_they_are(served: OpenedPage, tmp_path: Path) -> None:
+    """The trims of a hole come behind the cut of its tab, and there and back over that: they are 2 and 3 still."""
+
+    def plate_with_holes(space: Modelspace) -> None:
+        space.add_lwpolyline([(0, 0), (40, 0), (40, 24), (0, 24)], close=True)
+        for x in (10, 30):
+            space.add_circle((x, 12), 5)
+
+    number = came(served, drawn(tmp_path, plate_with_holes).read_bytes())
+    rounds = {"offset_mm": "0.14 0.12 0.1", "rough_first": "yes", "tab_mm": "2", "slug_tab_mm": "1.5"}
+    plan = planned(served, number, **rounds)
+    row_pass, length = np.array(plan["row_pass"]), np.array(plan["path"]["length_um"])
+    for figure in plan["figures"]:
+        cut = np.concatenate([np.arange(*span) for span in figure["spans"]])
+        of_pass = [float(length[cut][row_pass[cut] == each].sum()) for each in (1, 2, 3)]
+        assert of_pass[1] == pytest.approx(of_pass[0], rel=0.07), figure["number"]
+        assert of_pass[2] >= of_pass[1]
 
 
 def test_a_plan_that_cannot_be_says_why_by_the_controls_of_the_page(served: OpenedPage, dxf: bytes) -> None:
