@@ -32,7 +32,7 @@ class Pass(NamedTuple):
     edge
         Which edge, from 0 in the order first cut: passes over one edge share it.
     number
-        From 1 within the edge, in the order cut; passes over its tab go on counting.
+        From 1 within the edge, in the order cut; passes over its tab go on counting behind all others.
     first, last
         Rows, both included; leads left out.
     is_back
@@ -98,15 +98,13 @@ def find_passes(toolpath: Toolpath) -> Passes:
     sense = _senses(toolpath, cuts, edge)
     passes, of_row = [], np.full(len(toolpath), -1, dtype=np.int64)
     of_edge: dict[int, int] = {}
-    counted: dict[int, int] = {}
     part_side = _part_sides(toolpath, cuts, edge) * sense
     shift_um = _shifts(toolpath, cuts, edge, part_side)
-    columns = (edge, cuts.first, cuts.last, sense < 0, cuts.is_closed, cuts.is_tab, shift_um, part_side)
-    for number, (of, low, high, *rest) in enumerate(zip(*(column.tolist() for column in columns), strict=True)):
-        at = of_edge.setdefault(of, len(of_edge))
-        counted[at] = counted.get(at, 0) + 1
-        passes.append(Pass(at, counted[at], low, high, *rest))
-        of_row[low : high + 1] = number
+    number = _numbers(edge, cuts.is_tab)
+    columns = (number, cuts.first, cuts.last, sense < 0, cuts.is_closed, cuts.is_tab, shift_um, part_side)
+    for at, (of, *rest) in enumerate(zip(*(column.tolist() for column in (edge, *columns)), strict=True)):
+        passes.append(Pass(of_edge.setdefault(of, len(of_edge)), *rest))
+        of_row[cuts.first[at] : cuts.last[at] + 1] = at
     return Passes(with_edges(passes), of_row)
 
 
@@ -175,6 +173,15 @@ def _edges(toolpath: Toolpath, cuts: Cuts) -> Ints:
     np.minimum.at(first, together, group)
     edge[group] = first[together]
     return edge[known]
+
+
+def _numbers(edge: Ints, is_tab: Bools) -> Ints:
+    """Number (k,) of each cut within its edge, from 1 in running order: those over its tab behind all others."""
+    order = np.lexsort((is_tab, edge))  # stable: in running order within both
+    first = np.flatnonzero(np.diff(edge[order], prepend=-1))
+    number = np.empty(len(edge), dtype=np.int64)
+    number[order] = np.arange(len(edge)) - np.repeat(first, np.diff(first, append=len(edge))) + 1
+    return number
 
 
 def _senses(toolpath: Toolpath, cuts: Cuts, edge: Ints) -> Ints:

@@ -141,11 +141,12 @@ def test_offsets_count_from_the_edge_that_the_pass_nearest_to_the_part_leaves() 
 
 
 def test_a_tab_that_a_single_pass_leaves_is_cut_in_another_contour_and_a_trim_may_follow() -> None:
+    """That trim is the second pass, though the tab was cut before it: once over, and once on the way back."""
     told = [(one.edge, one.number, one.first, one.last, one.is_back, one.is_tab) for one in passes_of(TAB_ELSEWHERE)]
     assert told == [
         (0, 1, 1, 1, False, False),
         (1, 1, 4, 8, False, False),
-        (0, 2, 12, 12, True, True),
-        (0, 3, 13, 13, False, True),
-        (0, 4, 16, 16, True, False),
+        (0, 3, 12, 12, True, True),
+        (0, 4, 13, 13, False, True),
+        (0, 2, 16, 16, True, False),
     ]
