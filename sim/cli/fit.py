@@ -43,11 +43,10 @@ def fit(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     from parser.text.encoding import printable
     from sim.measure.fit.circle import fit_circle
-    from sim.measure.fit.corner import fit_corner
     from sim.measure.fit.model import document_text
     from sim.measure.fit.rows import read_circle
     from sim.setup.machine.machine import load_machine
-    from sim.show.terminal.fit import print_corner, print_fit
+    from sim.show.terminal.fit import print_fit
     from sim.show.terminal.layout import paragraph
     from sim.show.terminal.printer import say, write
 
@@ -55,11 +54,7 @@ def fit(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
         for option, value in (("--back", back), ("--feed", feed), ("--machine", machine), ("-o", output)):
             if value is not None:
                 raise click.BadParameter(Message("not-with-corner"), param_hint=option)
-        of_corner = fit_corner(read_circle(file))
-        if as_json:
-            write(document_text(printable(str(file)), of_corner, words()), "json")
-        else:
-            print_corner(of_corner, spoken())
+        _tell_corner(file, as_json=as_json)
         return
     if output is not None and output.suffix.lower() != ".toml":
         raise click.BadParameter(Message("machine-is-toml", output=output), param_hint="-o")
@@ -78,6 +73,22 @@ def fit(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
             paragraph(words()("fit.still-off", off=f"{off_um:.2f}"), "yellow")
         if output is not None:
             say(words()("commands.written", names=str(output)))
+
+
+def _tell_corner(file: Path, *, as_json: bool) -> None:
+    """What a measured corner says of the wire."""
+    from parser.text.encoding import printable
+    from sim.measure.fit.corner import fit_corner
+    from sim.measure.fit.model import document_text
+    from sim.measure.fit.rows import read_circle
+    from sim.show.terminal.fit import print_corner
+    from sim.show.terminal.printer import write
+
+    of_corner = fit_corner(read_circle(file))
+    if as_json:
+        write(document_text(printable(str(file)), of_corner, words()), "json")
+    else:
+        print_corner(of_corner, spoken())
 
 
 def _write(done: "CircleFit", base: "Machine", feed_um_s: float | None, output: Path) -> float:
