@@ -110,7 +110,17 @@ class Contour(NamedTuple):
     @property
     def is_open(self) -> bool:
         """Whether it should close and does not."""
-        return self.encloses and not (self.returns or self.in_kerf or self.is_closed_later)
+        return self.has_closure and not self.returns
+
+    @property
+    def has_closure(self) -> bool:
+        """Whether it is to end where it began."""
+        return self.encloses and not self.is_closed_by_others
+
+    @property
+    def is_closed_by_others(self) -> bool:
+        """Whether it ends elsewhere than it began, and other contours close it."""
+        return not self.returns and (self.in_kerf or self.is_closed_later)
 
 
 def runs(toolpath: Toolpath) -> Ints:

@@ -156,7 +156,7 @@ def _worst(run: DryRun, report: ReportDocument) -> Iterator[Figure]:
 
 def _closure(run: DryRun, report: ReportDocument) -> Iterator[Figure]:
     """The worst closure as stepped; open contours are worse than any that return."""
-    closing = [at for at, contour in enumerate(run.whole_contours) if contour.encloses]
+    closing = [at for at, contour in enumerate(run.whole_contours) if contour.has_closure]
     if not closing:
         return
     at = max(closing, key=lambda at: (run.whole_contours[at].is_open, run.whole_contours[at].closure_stepped_um))

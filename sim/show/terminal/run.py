@@ -250,9 +250,8 @@ def _closures(run: DryRun, tell: Words) -> list[Row]:
     """Closure of each contour; of many, the worst."""
     contours, key = run.whole_contours, "closure-of"
     if len(contours) > _MOST_CLOSURES:
-        worst = max(
-            contours, key=lambda contour: contour.encloses * (contour.closure_stepped_um + contour.is_open * 1e9)
-        )
+        closing = [each for each in contours if each.has_closure] or contours
+        worst = max(closing, key=lambda each: (each.is_open, each.closure_stepped_um))
         contours, key = (worst,), "closure-worst"
     elif len(contours) == 1:
         key = "closure"
@@ -262,6 +261,8 @@ def _closures(run: DryRun, tell: Words) -> list[Row]:
 def _closure(contour: Contour, tell: Words) -> str:
     if not contour.encloses:
         return tell("summary.closure-none")
+    if contour.is_closed_by_others:
+        return tell("summary.closure-others")
     exact, stepped = length(contour.closure_exact_um), length(contour.closure_stepped_um)
     figures = tell("summary.closure-figures", exact=exact, stepped=stepped)
     if contour.returns and contour.closure_exact_um > contour.tolerance_um:

@@ -1,5 +1,6 @@
 """In rounds over all figures, nothing falls with work in it that is still to be done, and the program is proved."""
 
+import re
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -16,9 +17,12 @@ from sim.make.cam.maker import MadeProgram, made_program
 from sim.make.cam.model import CutPlan
 from sim.make.wanted import Wanted
 from sim.measure.compare.rings import polygon
+from sim.run.report import build_report
 from sim.run.times.predicted import predicted
 from sim.setup.making import DirectionWish, LayerWish, Making
 from sim.setup.shop import Shop
+from sim.show.report_page.figures import key_figures
+from sim.show.terminal.run import print_summary
 
 TRIMMED = (130.0, 100.0)
 TO_3B = Wanted("3b")
@@ -155,6 +159,24 @@ def test_each_pass_and_each_cut_off_has_its_time(
     done = made(tmp_path, making, wanted)
     _are_timed(done)
     assert predicted(done.program, plain_scenario(), Shop()).passes == max(len(passes_um), 1), "a tab is no pass"
+
+
+@pytest.mark.parametrize("making", [WAYS["three passes"], WAYS["both"]])
+def test_what_a_tab_leaves_open_is_no_closure(
+    tmp_path: Path, making: Making, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The first pass of a hole ends 1.5 mm from its start, as planned: no one is to look for a fault there."""
+    done = made(tmp_path, making)
+    assert done.proof is not None
+    run = done.proof.run
+    assert run is not None
+    assert any(contour.closure_stepped_um > 1400.0 for contour in run.whole_contours)
+    print_summary(run, None)
+    printed = re.findall(r"closure.*│ (\S+) (\S+) exact", capsys.readouterr().out)
+    assert printed
+    assert all(unit == "µm" and float(exact) < 10.0 for exact, unit in printed)
+    shown = next(each for each in key_figures(run, build_report(run)) if each.entry.endswith("closure_stepped_um"))
+    assert shown.unit == "µm"
 
 
 def test_a_hole_alone_is_cut_off_without_being_threaded_again(tmp_path: Path) -> None:
