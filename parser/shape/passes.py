@@ -118,11 +118,9 @@ def own_numbers(passes: Passes) -> Ints:
 
     A trim behind the cut of a tab is the second pass still, as in a program that cuts its tab last.
     """
-    counted: dict[tuple[int, bool], int] = {}
-    numbers = np.ones(len(passes.passes), dtype=np.int64)
-    for at, pass_ in enumerate(passes.passes):
-        counted[pass_.edge, pass_.is_tab] = numbers[at] = counted.get((pass_.edge, pass_.is_tab), 0) + 1
-    return numbers
+    edge = np.array([pass_.edge for pass_ in passes.passes], dtype=np.int64)
+    is_tab = np.array([pass_.is_tab for pass_ in passes.passes], dtype=np.bool_)
+    return _numbers(2 * edge + is_tab, is_tab)
 
 
 def most_passes(passes: Passes) -> int:
