@@ -38,7 +38,8 @@ from sim.run.report.model import CardDocument, ReportDocument
 from sim.run.report.run_model import CardEntry
 from sim.run.running import Along, run_along
 from sim.setup.machine.machine import Machine
-from sim.setup.machine.table import Motor, TableModel
+from sim.setup.machine.motor import Motor
+from sim.setup.machine.table import TableModel
 from sim.setup.scenario import Scenario
 from sim.table.follow import Setup
 from sim.table.motion import Motion

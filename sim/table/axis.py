@@ -10,7 +10,8 @@ from typing import NamedTuple
 from controller.compiled.loops import loop_part
 from sim.table.course import LIMITED, LOOSE, STILL_UM, Body, Bounds, Course, Hold, anew
 from sim.table.events import NOTHING, SLIPS, after_event, end_of
-from sim.table.rating import Rating, Strength, Train, Turn, rated, turned
+from sim.table.rating import Rating, Strength, rated
+from sim.table.turning import Loop, Train, Turn, away_um, corner_s, is_closed, is_idle, steered, turned
 
 _BRAKED_TO = 1e-6
 """A slide that brakes counts as standing once it is this slow, µm/s."""
@@ -23,16 +24,19 @@ class Axis(NamedTuple):
     ----------
     body, strength
         Its drive and its travel, and what its motor can do.
+    loop
+        The position loop that is closed about it, if one is.
     step_time_s
-        Time that the motor takes for a step.
+        Time that the motor takes for a step; the period of a loop that is closed.
     trip_um
-        Lag at which a servo trips; infinite for a stepper.
+        Following error at which a servo trips; infinite for a stepper.
     speed_limit_um_s
         Speed limit, for its peak; infinite where there is none.
     """
 
     body: Body
     strength: Strength
+    loop: Loop
     step_time_s: float
     trip_um: float
     speed_limit_um_s: float
@@ -121,16 +125,13 @@ def standing(at_um: float) -> Course:
 
 @loop_part("(Axis, AxisDemand, Rating)", Axis, AxisDemand, Rating)
 def bounds_of(axis: Axis, demand: AxisDemand, rating: Rating) -> Bounds:
-    """What its motor can do at its step rate. Where a servo is known to have tripped, none trips before it."""
-    trip_um = axis.trip_um if demand.braked_s == math.inf else math.inf
+    """What its motor can do at its step rate. Where a servo is known to have tripped, none trips before it.
+
+    A position loop trips by what it looks at, when it looks.
+    """
+    trips = demand.braked_s == math.inf and not is_closed(axis.loop)
+    trip_um = axis.trip_um if trips else math.inf
     return Bounds(rating.limit, min(rating.pull_out_um, trip_um))
-
-
-@loop_part("f8(Axis, AxisDemand, Turn)", Axis, AxisDemand, Turn)
-def _corner_s(axis: Axis, demand: AxisDemand, turn: Turn) -> float:
-    """When a motor begins or ends a step next."""
-    ends_s = demand.train.t_s[turn.done] + axis.step_time_s if turn.done < turn.begun else math.inf
-    return float(min(demand.train.t_s[turn.begun], ends_s))
 
 
 @loop_part("(Axis, Course, f8)", Axis, Course)
@@ -157,7 +158,10 @@ def turned_to(axis: Axis, demand: AxisDemand, state: State) -> State:
     rating = state.rating
     if t_s >= rating.until_s:
         rating = rated(axis.strength, demand.train, rating, t_s)
-    turn = turned(demand.train, axis.step_time_s, state.turn, t_s)
+    if is_closed(axis.loop):
+        turn = steered(axis.loop, demand.train, state.turn, course.at_um, t_s)
+    else:
+        turn = turned(demand.train, axis.step_time_s, state.turn, t_s)
     speed = turn.rising_um / axis.step_time_s if turn.rising_um != 0.0 else 0.0
     commanded = noted.commanded
     while demand.train.t_s[commanded] <= t_s:
@@ -175,15 +179,17 @@ def turned_to(axis: Axis, demand: AxisDemand, state: State) -> State:
         else:
             course = _slipped(axis, course, bounds.lag_um)
             lost_um += lag_um - course.lag_um
+    elif is_closed(axis.loop) and abs(away_um(axis.loop, demand.train, turn, course.at_um)) > axis.trip_um:
+        tripped_s = min(t_s, tripped_s) if demand.braked_s == math.inf else tripped_s
     following = anew(axis.body, bounds, course)
-    return _stilled(axis, State(t_s, following, lost_um, False, turn, rating, noted, tripped_s))
+    return _stilled(axis, demand, State(t_s, following, lost_um, False, turn, rating, noted, tripped_s))
 
 
-@loop_part("(Axis, State)", Axis, State)
-def _stilled(axis: Axis, state: State) -> State:
+@loop_part("(Axis, AxisDemand, State)", Axis, AxisDemand, State)
+def _stilled(axis: Axis, demand: AxisDemand, state: State) -> State:
     """An axis that rests, where its slide stands and its motor does: without friction once it rings ever so little."""
     course, drive = state.course, axis.body.drive
-    idle = state.turn.done == state.turn.begun
+    idle = is_idle(axis.loop, demand.train, state.turn, course.at_um)
     way = course.hold.way
     if idle and way != 0 and drive.friction == 0.0 and course.hold.grip != LIMITED:
         still = abs(course.velocity) < STILL_UM * math.sqrt(drive.spring)
@@ -204,7 +210,7 @@ def next_leg(axis: Axis, demand: AxisDemand, state: State) -> Leg:
     A course that ends between two corners goes on with the next one; at a corner it begins anew.
     """
     course, bounds = state.course, bounds_of(axis, demand, state.rating)
-    due_s = min(_corner_s(axis, demand, state.turn), state.rating.until_s)
+    due_s = min(corner_s(axis.loop, axis.step_time_s, demand.train, state.turn), state.rating.until_s)
     if course.braked:
         slows_s = math.log(abs(course.velocity) / _BRAKED_TO) / (axis.body.drive.damper + axis.body.drive.viscous)
         due_s = state.t_s + slows_s
@@ -227,4 +233,4 @@ def next_leg(axis: Axis, demand: AxisDemand, state: State) -> Leg:
     else:
         following = after_event(axis.body, bounds, last, event)
     ended = State(t_s, following, lost_um, False, turn, state.rating, noted, tripped_s)
-    return Leg(course, last, event.after_s, _stilled(axis, ended))
+    return Leg(course, last, event.after_s, _stilled(axis, demand, ended))

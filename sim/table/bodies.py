@@ -19,8 +19,9 @@ from sim.table.axis import Axis, AxisDemand, Noted
 from sim.table.course import STILL_UM
 from sim.table.history import VALUES, Bins, Limits, PeakPlace, Record, take_peak, widened
 from sim.table.kicks import Kick, Kicked, kicked
-from sim.table.rating import RATE_WINDOW_S, Rating, Train, Turn, rated, turned
+from sim.table.rating import RATE_WINDOW_S, Rating, rated
 from sim.table.ticks import Ticks
+from sim.table.turning import Train, Turn, away_um, is_closed, is_idle, looks_at_s, steered, turned
 
 
 class Slide(NamedTuple):
@@ -161,6 +162,13 @@ class Passed(NamedTuple):
     velocity: float
 
 
+def _turned(axis: Axis, demand: AxisDemand, turn: Turn, slide_um: float, t_s: float) -> Turn:
+    """The motor of an axis at a later time: from step to step, or as its loop lets it, which sees the slide there."""
+    if is_closed(axis.loop):
+        return steered(axis.loop, demand.train, turn, slide_um, t_s)
+    return turned(demand.train, axis.step_time_s, turn, t_s)
+
+
 def _ahead_of(axis: Axis, rhythms: Rhythms, demand: AxisDemand, state: BodyState) -> Ahead:
     """What a tick asks of a drive.
 
@@ -176,7 +184,7 @@ def _ahead_of(axis: Axis, rhythms: Rhythms, demand: AxisDemand, state: BodyState
     rating = state.rating
     if slide.t_s >= rating.until_s:
         rating = rated(axis.strength, demand.train, rating, slide.t_s)
-    turn = turned(demand.train, axis.step_time_s, state.turn, slide.t_s + tick_s / 2.0)
+    turn = _turned(axis, demand, state.turn, slide.at_um, slide.t_s + tick_s / 2.0)
     length_s = (slide.tick_s + tick_s) / 2.0
     motor_um = (state.turn.place_um + turn.place_um) / 2.0 - slide.lost_um
     at_um = slide.at_um + slide.velocity * (tick_s - slide.tick_s) / 4.0
@@ -201,13 +209,13 @@ def _slip_of(ahead: Ahead, period_um: float) -> float:
     return math.copysign(math.ceil(beyond_um / period_um) * period_um, ahead.kick.lag_um)
 
 
-def _stands(axis: Axis, ahead: Ahead, passed: Passed) -> bool:
+def _stands(axis: Axis, demand: AxisDemand, ahead: Ahead, passed: Passed) -> bool:
     """Whether a slide stands from now on while its motor does: the next tick would be like this one.
 
     Friction stops a slide for good. Without friction it rings ever less, and counts as resting within `STILL_UM`.
     """
     drive, kick = axis.body.drive, ahead.kick
-    if kick.motor_um_s != 0.0 or ahead.turn.done < ahead.turn.begun:
+    if kick.motor_um_s != 0.0 or not is_idle(axis.loop, demand.train, ahead.turn, passed.at_um):
         return False
     if abs(passed.force) >= kick.limit and kick.limit < axis.strength.limit[0]:  # the motor can do more at a standstill
         return False
@@ -222,9 +230,10 @@ def _after(axis: Axis, demand: AxisDemand, state: BodyState, ahead: Ahead, passe
     slide, noted, lag_um = state.slide, state.noted, ahead.kick.lag_um
     t_s, braked = slide.t_s + ahead.tick_s, slide.t_s >= demand.braked_s
     slip_um = 0.0 if braked else _slip_of(ahead, axis.strength.period_um)
-    rests = slip_um == 0.0 and _stands(axis, ahead, passed)
+    rests = slip_um == 0.0 and _stands(axis, demand, ahead, passed)
     velocity = 0.0 if rests else passed.velocity
-    tripped_s = t_s if abs(lag_um) > axis.trip_um and not braked else math.inf
+    error_um = away_um(axis.loop, demand.train, ahead.turn, passed.at_um) if is_closed(axis.loop) else lag_um
+    tripped_s = t_s if abs(error_um) > axis.trip_um and not braked else math.inf
     commanded = noted.commanded
     while demand.train.t_s[commanded] <= t_s:
         commanded += 1
@@ -258,12 +267,20 @@ def binned(bins: Bins, number: int, since_s: float, until_s: float, values: Valu
         number, since_s = number + 1, end_s
 
 
+def _behind_um(axis: Axis, demand: AxisDemand, state: BodyState) -> float:
+    """How far what a position loop looks at is behind its command; below 0 where no loop is closed."""
+    if not is_closed(axis.loop):
+        return -1.0
+    return abs(float(away_um(axis.loop, demand.train, state.turn, state.slide.at_um)))
+
+
 def _peaked(record: Record, values: Values, limits: Limits, slide: Slide) -> None:
     """Take a tick for the peaks; `slide` is that at its end."""
     place = PeakPlace(slide.t_s, slide.at_um)
     take_peak(record, 0, abs(values.force), limits.force, place)
     take_peak(record, 1, abs(values.velocity), limits.speed, place)
-    take_peak(record, 2, abs(values.lag_um), limits.lag_um, place)
+    lag_um = abs(values.lag_um) if limits.behind_um < 0.0 else limits.behind_um
+    take_peak(record, 2, lag_um, limits.lag_um, place)
 
 
 def _recorded(axis: Axis, demand: AxisDemand, before: BodyState, now: BodyState, record: Record) -> BodyState:
@@ -276,7 +293,8 @@ def _recorded(axis: Axis, demand: AxisDemand, before: BodyState, now: BodyState,
     if since.t_s < demand.braked_s:
         values, rating = _values_of(demand, before, now), now.rating
         number = binned(record.bins, number, since.t_s, min(slide.t_s, demand.braked_s), values)
-        limits = Limits(rating.limit, axis.speed_limit_um_s, min(rating.pull_out_um, axis.trip_um))
+        limit_um = min(rating.pull_out_um, axis.trip_um)
+        limits = Limits(rating.limit, axis.speed_limit_um_s, limit_um, _behind_um(axis, demand, now))
         _peaked(record, values, limits, slide)
     if slip_um != 0.0:
         record.slip_s[slip], record.slip_um[slip], record.slip_at_um[slip] = slide.t_s, slip_um, slide.at_um
@@ -287,7 +305,7 @@ def _recorded(axis: Axis, demand: AxisDemand, before: BodyState, now: BodyState,
 def _waited(state: BodyState, until_s: float) -> BodyState:
     """An axis that has rested until a time; its step rate is taken anew then."""
     rested = state.slide._replace(t_s=until_s, velocity=0.0, tick_s=0.0, rests=False)
-    still = Turn(state.turn.place_um, until_s, 0.0, state.turn.begun, state.turn.done)
+    still = state.turn._replace(t_s=until_s, rising_um=0.0)
     return state._replace(slide=rested, turn=still, rating=state.rating._replace(until_s=until_s))
 
 
@@ -308,14 +326,17 @@ class InBodies:
     def at_rest(self, train: Train, at_um: float, rating: Rating) -> BodyState:
         """At rest at a place, its motor there too, at time 0."""
         slide = Slide(0.0, at_um, 0.0, 0.0, 0.0, 0.0, 0.0, True)
-        return BodyState(slide, Turn(at_um, 0.0, 0.0, 0, 0), rating, Noted(0, 0, 0, 0, 0), 0, math.inf)
+        return BodyState(slide, Turn(at_um, 0.0, 0.0, 0, 0, 0), rating, Noted(0, 0, 0, 0, 0), 0, math.inf)
 
     def due_s(self, demand: AxisDemand, state: BodyState) -> float:
         """When an axis has something to do: at its next pulse where it rests."""
-        slide = state.slide
+        slide, loop = state.slide, self._axis.loop
         if not slide.rests:
             return slide.t_s
-        return math.inf if slide.t_s >= demand.braked_s else max(slide.t_s, demand.train.t_s[state.turn.begun])
+        if slide.t_s >= demand.braked_s:
+            return math.inf
+        pulse_s = float(demand.train.t_s[state.turn.begun])
+        return max(slide.t_s, looks_at_s(loop, pulse_s) if is_closed(loop) else pulse_s)
 
     def followed(self, demand: AxisDemand, state: BodyState, record: Record) -> BodyState:
         """An axis that has followed its pulses to their end, has no room for slips in its record, or has tripped."""

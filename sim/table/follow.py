@@ -137,9 +137,9 @@ class Following:
         self._followed_s = max(until_s, self._followed_s)
         self._let(until_s, pulses)
         first = min(Axis, key=lambda axis: self._runs[axis].state.tripped_s)
-        tripped = self._runs[first].state
-        if before and tripped.tripped_s < np.inf:
-            self._trip = first, Slip(tripped.tripped_s, tripped.lag_um, tripped.at_um)
+        trip = self._runs[first].trip
+        if before and trip.t_s < np.inf:
+            self._trip = first, trip
             for axis, run in zip(self._axes, before, strict=True):
                 axis.run = run
             self._let(until_s, pulses)

@@ -63,11 +63,16 @@ _BEYOND_ROUNDING = 1.0 + 1e-6
 
 
 class Limits(NamedTuple):
-    """Limits of force over mass, µm/s², of speed, µm/s, and of the lag, µm; infinite where there is none."""
+    """Limits of force over mass, µm/s², of speed, µm/s, and of the lag, µm; infinite where there is none.
+
+    Where a position loop is closed, what counts as the lag is `behind_um`, how far what it looks at is behind its
+    command; below 0 where none is.
+    """
 
     force: float
     speed: float
     lag_um: float
+    behind_um: float
 
 
 class Record(NamedTuple):

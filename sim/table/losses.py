@@ -11,7 +11,7 @@ from parser.findings.findings import Fact, Finding, Value, file_order
 from parser.program import Program
 from parser.units import mm
 from sim.base.units import newtons
-from sim.setup.machine.table import Motor
+from sim.setup.machine.motor import Motor
 from sim.table.drive import Drive
 from sim.table.history import PEAK_COLUMNS, Record
 from sim.table.ticks import Ticks
@@ -27,7 +27,8 @@ class Peak(NamedTuple):
     Attributes
     ----------
     quantity
-        ``force`` of the drive, N; ``speed`` of the slide, µm/s; ``lag`` of the slide behind its motor, µm.
+        ``force`` of the drive, N; ``speed`` of the slide, µm/s; ``lag`` of the slide behind its motor, µm, or where a
+        position loop is closed of what that looks at behind its command.
     axis
         Whose.
     value, limit

@@ -24,6 +24,7 @@ from sim.table.course import (
 )
 from sim.table.forms import Oscillation, coasted_s, coasting, first_zero, pair_at, slope_of, value_of
 from sim.table.history import VALUES, Bins, Limits, PeakPlace, Record, is_peak, take_peak, widened
+from sim.table.turning import away_um, is_closed
 
 
 class Range(NamedTuple):
@@ -184,7 +185,10 @@ def peaked_of(ranges: Ranges) -> Peaked:
 def limits_of(axis: Axis, demand: AxisDemand, state: State) -> Limits:
     """Limits of an axis at its step rate."""
     bounds = bounds_of(axis, demand, state.rating)
-    return Limits(bounds.force, axis.speed_limit_um_s, bounds.lag_um)
+    if not is_closed(axis.loop):
+        return Limits(bounds.force, axis.speed_limit_um_s, bounds.lag_um, -1.0)
+    behind_um = abs(away_um(axis.loop, demand.train, state.turn, state.course.at_um))
+    return Limits(bounds.force, axis.speed_limit_um_s, axis.trip_um, behind_um)
 
 
 class Candidate(NamedTuple):
@@ -209,7 +213,8 @@ def _take_peaks(body: Body, part: Part, peaked: Peaked, limits: Limits, record: 
     """Take the peaks of a part of a course."""
     _take_candidate(body, part, Candidate(0, peaked.force, limits.force), record)
     _take_candidate(body, part, Candidate(1, peaked.speed, limits.speed), record)
-    _take_candidate(body, part, Candidate(2, peaked.lag_um, limits.lag_um), record)
+    lag_um = peaked.lag_um if limits.behind_um < 0.0 else Farthest(limits.behind_um, 0.0)
+    _take_candidate(body, part, Candidate(2, lag_um, limits.lag_um), record)
 
 
 @loop_part("i8(Bins, i8, f8)", Bins)

@@ -15,11 +15,12 @@ from sim.table.drive import drives_of
 from sim.table.forms import oscillation_of
 from sim.table.history import PEAKS, VALUES, Bins, Record, borders_s
 from sim.table.losses import Slip
-from sim.table.rating import RATE_WINDOW_S, Rating, Train, Turn, rated, strength_of
+from sim.table.rating import RATE_WINDOW_S, Rating, rated, strength_of
 from sim.table.recording import recorded
 from sim.table.store import no_swings
 from sim.table.swings import due_s, followed, waited
 from sim.table.ticks import Ticks
+from sim.table.turning import Train, Turn, away_um, is_closed, loop_of
 
 _SLIPS = 1024
 """Slips that a record has room for, until they are told."""
@@ -61,12 +62,12 @@ class ByEvents:
 
     def at_rest(self, train: Train, at_um: float, rating: Rating) -> State:
         """At rest at a place, its motor there too, at time 0."""
-        turn, noted = Turn(at_um, 0.0, 0.0, 0, 0), Noted(0, 0, 0, 0, 0)
+        turn, noted = Turn(at_um, 0.0, 0.0, 0, 0, 0), Noted(0, 0, 0, 0, 0)
         return State(0.0, standing(at_um), 0.0, True, turn, rating, noted, math.inf)
 
     def due_s(self, demand: AxisDemand, state: State) -> float:
         """When an axis has something to do: at its next pulse where it rests."""
-        return due_s(demand, state)
+        return due_s(self._axis, demand, state)
 
     def followed(self, demand: AxisDemand, state: State, record: Record) -> State:
         """An axis once it has followed its pulses as far as they lead, its record is full of slips, or it trips."""
@@ -91,11 +92,13 @@ class ByEvents:
 def axis_of(model: TableModel, number: int, room_um: Floats, speed_limit_um_s: float) -> Axis:
     """An axis of a table, by number; `room_um` (2,) is its travel."""
     drive, motor = drives_of(model)[number], model.motor
+    loop = loop_of(motor)
     low, high = room_um.tolist()
     return Axis(
         body=Body(drive, oscillation_of(drive), low, high),
         strength=strength_of(motor, drive),
-        step_time_s=motor.step_time_s,
+        loop=loop,
+        step_time_s=loop.period_s or motor.step_time_s,
         trip_um=motor.following_error_limit_um,
         speed_limit_um_s=speed_limit_um_s,
     )
@@ -112,7 +115,7 @@ class AxisRun:
 
     def __init__(self, axis: Axis, at_um: int, ticks: Ticks, engine: Engine) -> None:
         place = float(at_um)
-        self._engine = engine
+        self._engine, self._loop = engine, axis.loop
         self.record = _record_of(borders_s(ticks), ticks.t_s, place)
         self._train = Train(np.array([np.inf]), np.array([place]))
         rating = rated(axis.strength, self._train, Rating(0.0, 0.0, 0.0, 0, 0), -RATE_WINDOW_S)
@@ -122,6 +125,13 @@ class AxisRun:
     def state(self) -> Any:
         """How far it has come."""
         return self._state
+
+    @property
+    def trip(self) -> Slip:
+        """Where it stands as its servo trips, and by what: its lag, or how far what its loop looks at is behind."""
+        state, loop = self._state, self._loop
+        error_um = away_um(loop, self._train, state.turn, state.at_um) if is_closed(loop) else state.lag_um
+        return Slip(state.tripped_s, error_um, state.at_um)
 
     @property
     def ahead_s(self) -> float:

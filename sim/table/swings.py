@@ -16,9 +16,10 @@ from controller.compiled.loops import compiled, loop_part
 from sim.table.axis import Axis, AxisDemand, Leg, Noted, State, next_leg, turned_to
 from sim.table.course import LIMITED, Course, Hold, moved
 from sim.table.history import PEAKS, VALUES, PeakPlace, Record, take_peak, widened
-from sim.table.rating import Rating, Turn, rated
+from sim.table.rating import Rating, rated
 from sim.table.recording import Part, bin_at, limits_of, peaked_of, recorded, recorded_part
 from sim.table.store import COURSES, FIELDS, SWINGS, Swings
+from sim.table.turning import Turn, is_closed, looks_at_s
 
 ALIKE_UM = 1e-8
 """Lags that differ by less begin the same swing: rounding moves one by 1e-9 µm. The lag at which a stored swing ends is
@@ -58,12 +59,15 @@ class Swing(NamedTuple):
     slot: int
 
 
-@compiled("f8(AxisDemand, State)", AxisDemand, State)
-def due_s(demand: AxisDemand, state: State) -> float:
-    """When an axis has something to do: at its next pulse where it rests."""
+@compiled("f8(Axis, AxisDemand, State)", Axis, AxisDemand, State)
+def due_s(axis: Axis, demand: AxisDemand, state: State) -> float:
+    """When an axis has something to do: at its next pulse where it rests, or when its loop sees that one."""
     if not state.rests:
         return state.t_s
-    return math.inf if state.t_s >= demand.braked_s else max(state.t_s, demand.train.t_s[state.turn.begun])
+    if state.t_s >= demand.braked_s:
+        return math.inf
+    pulse_s = demand.train.t_s[state.turn.begun]
+    return max(state.t_s, looks_at_s(axis.loop, pulse_s) if is_closed(axis.loop) else pulse_s)
 
 
 @compiled("(State, f8)", State, Leg)
@@ -71,7 +75,7 @@ def waited(state: State, until_s: float) -> Leg:
     """What an axis does that rests until a time; its step rate is taken anew then."""
     rating, turn = state.rating, state.turn
     aged = Rating(rating.limit, rating.pull_out_um, until_s, rating.first, rating.last)
-    still = Turn(turn.place_um, until_s, 0.0, turn.begun, turn.done)
+    still = Turn(turn.place_um, until_s, 0.0, turn.begun, turn.done, turn.look)
     rested = State(until_s, state.course, state.lost_um, True, still, aged, state.noted, state.tripped_s)
     return Leg(state.course, state.course, until_s - state.t_s, rested)
 
@@ -160,7 +164,7 @@ def _repeated(task: AxisTask, first: State, swing: Swing) -> State:
     rest = _stored_course(swings, slot * COURSES + swings.courses[slot])
     at_um = task.demand.train.place_um[done] - first.lost_um - rest.lag_um
     course = Course(at_um, 0.0, rest.lag_um, 0.0, rest.hold, rest.force, False)
-    turn = Turn(task.demand.train.place_um[done], t_s, 0.0, done, done)
+    turn = Turn(task.demand.train.place_um[done], t_s, 0.0, done, done, 0)
     noted = Noted(_sampled(task, first, swing), swing.bin, noted.slip, done, noted.courses)
     return State(t_s, course, first.lost_um, True, turn, first.rating, noted, first.tripped_s)
 
@@ -268,11 +272,12 @@ def _swung(task: AxisTask, state: State) -> State:
 def followed(axis: Axis, demand: AxisDemand, state: State, record: Record, swings: Swings) -> State:
     """An axis once it has followed its pulses as far as they lead, its record has no room for slips, or it trips."""
     task = AxisTask(axis, demand, record, swings)
-    while due_s(demand, state) < demand.until_s and state.noted.slip < len(record.slip_s):
+    while due_s(axis, demand, state) < demand.until_s and state.noted.slip < len(record.slip_s):
         if state.tripped_s < demand.braked_s:
             break
         if state.rests:
-            state = _swung(task, recorded(axis, demand, state, waited(state, due_s(demand, state)), record))
+            rested = recorded(axis, demand, state, waited(state, due_s(axis, demand, state)), record)
+            state = _awoken(task, rested) if is_closed(axis.loop) else _swung(task, rested)
         else:
             state = recorded(axis, demand, state, next_leg(axis, demand, state), record)
     return state

@@ -25,6 +25,8 @@ SHAKEN_RAD = 0.05
 """Phase of the ringing in one tick while the axes are shaken by more than a step."""
 DIED = 6.0
 """Decay times after which a shake counts as dead: e⁻⁶ is 0.25 %."""
+_ARRIVES = 14.0
+"""Times of a position loop, 1 over its gain, after which it has come: of 1 mm that it was behind 1 nm is left."""
 
 
 class Rhythm(NamedTuple):
@@ -36,10 +38,13 @@ class Rhythm(NamedTuple):
         Natural frequencies of X and Y, 1/s.
     decay
         Decay rate of the slower axis, 1/s.
+    arrives_s
+        Time that a position loop takes to come to its command; 0 without one.
     """
 
     frequencies: tuple[float, float]
     decay: float
+    arrives_s: float = 0.0
 
     @property
     def frequency(self) -> float:
@@ -56,13 +61,19 @@ class Rhythm(NamedTuple):
         """Time after which a shake has died."""
         return DIED / self.decay
 
+    @property
+    def rests_s(self) -> float:
+        """Time after which the table rests behind its last pulse."""
+        return self.died_s + self.arrives_s
+
 
 def rhythm(model: TableModel) -> Rhythm:
     """Rhythm of a table: ω = sqrt(k / m) of each axis, decay ζω of the slower, or that of the slow root where ζ > 1."""
     x, y = (drive.frequency for drive in drives_of(model))
     ratio = model.drive_damping_ratio
     slow = ratio - (ratio**2 - 1.0) ** 0.5 if ratio > 1.0 else ratio
-    return Rhythm((x, y), slow * min(x, y))
+    loop = model.motor.loop
+    return Rhythm((x, y), slow * min(x, y), 0.0 if loop is None else _ARRIVES / loop.gain_per_s)
 
 
 class Sampling(NamedTuple):
@@ -135,7 +146,7 @@ def choose_ticks(toolpath: Toolpath, plan: Plan, rhythm: Rhythm, sampling: Sampl
     """
     before = toolpath.before_um
     borders = plan.time_at(before)
-    rest = plan.duration_s + rhythm.died_s
+    rest = plan.duration_s + rhythm.rests_s
     along = np.concatenate([_spaced(before, sampling.spacing_um), _behind_corners(toolpath, before, sampling)])
     samples = np.concatenate([plan.time_at(np.sort(along)), [plan.duration_s, rest]])
     samples = _apart(np.unique(samples[samples > 0.0]))

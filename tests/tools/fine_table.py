@@ -5,7 +5,7 @@ slide between the flanks of its nut without friction, it does not settle: `settl
 """
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numba
 import numpy as np
@@ -20,8 +20,9 @@ TICKS_S = (1e-7, 1e-8, 1e-9)
 class FineAxis(NamedTuple):
     """An axis over its moved mass, kg: k/m 1/s², damper 1/s, friction µm/s², viscous 1/s, half the backlash µm.
 
-    Then the largest force over the mass, µm/s², the electrical period, µm, the time of a step, s, and the ends of the
-    travel, µm.
+    Then the largest force over the mass, µm/s², the electrical period, µm, the time of a step, s, the ends of the
+    travel, µm; and of a position loop its period, s, 0 without one, gain, 1/s, feed forward, how near is near enough,
+    µm, and whether it looks at the slide.
     """
 
     mass_kg: float
@@ -35,6 +36,11 @@ class FineAxis(NamedTuple):
     step_time_s: float
     low_um: float = -1e9
     high_um: float = 1e9
+    look_s: float = 0.0
+    gain: float = 0.0
+    forward: float = 0.0
+    near_um: float = 0.0
+    by_scale: bool = False
 
 
 def fine_axis(model: TableModel, axis: int) -> FineAxis:
@@ -51,7 +57,21 @@ def fine_axis(model: TableModel, axis: int) -> FineAxis:
         limit=model.motor.force_curve[0][1] * 1e6 / mass,
         period_um=model.motor.electrical_period_um,
         step_time_s=model.motor.step_time_s,
+        **_loop(model),
     )
+
+
+def _loop(model: TableModel) -> dict[str, Any]:
+    loop = model.motor.loop
+    if loop is None:
+        return {}
+    return {
+        "look_s": loop.period_s,
+        "gain": loop.gain_per_s,
+        "forward": loop.feed_forward,
+        "near_um": loop.in_position_um,
+        "by_scale": loop.feedback == "scale",
+    }
 
 
 class Fine(NamedTuple):
@@ -93,14 +113,20 @@ def _run(axis, steps, sample_s, tick_s, into):  # type: ignore[no-untyped-def]
     """Fill in the places of the slide at the samples, and how far it comes; what its motor lost in all."""
     at_um, farthest = into
     at = velocity = lost = lost_either_way = 0.0
-    span, sample, begin_s, number = (0, 0), 0, 0.0, 0
+    span, sample, begin_s, number, loop = (0, 0), 0, 0.0, 0, (0.0, 0.0, 0.0, 0.0, 0)
     while sample < len(sample_s):
         now, number = begin_s + number * tick_s, number + 1
         while sample < len(sample_s) and sample_s[sample] <= now:
             at_um[sample] = at
             sample += 1
-        motor, speed, span = _motor(axis, steps, now, span)
-        turn_s, tick = _next_turn(axis, steps, span), tick_s
+        if axis.look_s > 0.0:
+            if now >= loop[4] * axis.look_s - 1e-13:
+                loop = _looked(axis, steps, loop, at)
+            motor, speed = loop[0] + loop[1] * (now - loop[2]), loop[1]
+            turn_s, tick = loop[4] * axis.look_s, tick_s
+        else:
+            motor, speed, span = _motor(axis, steps, now, span)
+            turn_s, tick = _next_turn(axis, steps, span), tick_s
         if now + tick_s >= turn_s:
             begin_s, number, tick = turn_s, 0, turn_s - now
         slip = _slip(axis, motor - lost - at)
@@ -115,6 +141,20 @@ def _run(axis, steps, sample_s, tick_s, into):  # type: ignore[no-untyped-def]
         if at >= axis.high_um or at <= axis.low_um:
             at, velocity = min(max(at, axis.low_um), axis.high_um), 0.0
     return lost if lost != 0.0 else lost_either_way
+
+
+@numba.njit
+def _looked(axis, steps, loop, at):  # type: ignore[no-untyped-def]
+    """Place, speed and time of the motor, the command that its loop sees, and the number of its next look."""
+    (t_s, place_um), (place, speed, since, seen, number) = steps, loop
+    now = number * axis.look_s
+    place += speed * (now - since)
+    due = np.searchsorted(t_s, now + 1e-6 * axis.look_s, side="right")
+    command = place_um[due - 1] if due > 0 else 0.0
+    behind = command - (at if axis.by_scale else place)
+    if command == seen and abs(behind) <= axis.near_um:
+        return place, 0.0, now, command, number + 1
+    return place, axis.gain * behind + axis.forward * (command - seen) / axis.look_s, now, command, number + 1
 
 
 @numba.njit

@@ -6,7 +6,8 @@ import numpy as np
 
 from controller.stepping.pulses import Pulses
 from parser.geometry.curves import Floats
-from sim.setup.machine.table import Motor, TableModel
+from sim.setup.machine.motor import Motor, PositionLoop
+from sim.setup.machine.table import TableModel
 
 UNTIL_S = 0.15
 SAMPLE_S = 7.5e-4
@@ -41,6 +42,18 @@ def random_model(rng: np.random.Generator) -> TableModel:
         friction_n=often_none(0.0, 2.5),
         viscous_n_s_mm=often_none(-1.0, 1.5),
         backlash_um=often_none(-0.5, 1.3),
+    )
+
+
+def random_loop(rng: np.random.Generator) -> PositionLoop:
+    """A loop as drives have it, from a soft to a stiff one, which at the worst rings."""
+    period_s = float(10.0 ** rng.uniform(-3.7, -2.3))
+    return PositionLoop(
+        gain_per_s=min(float(10.0 ** rng.uniform(0.7, 2.6)), 1.5 / period_s),
+        feed_forward=float(rng.choice([0.0, 1.0, rng.uniform(0.0, 1.2)])),
+        period_s=period_s,
+        feedback="scale" if rng.random() < 0.5 else "motor",
+        in_position_um=float(rng.choice([0.0, rng.uniform(0.1, 2.0)])),
     )
 
 
@@ -86,6 +99,7 @@ def boundless_model(rng: np.random.Generator) -> TableModel:
         electrical_period_um=between(-1, 4),
         following_error_limit_um=between(-1, 6) if servo else np.inf,
         force_curve=((0.0, between(-1, 6)), (between(1, 4), between(-1, 6))),
+        loop=random_loop(rng) if servo and rng.random() < 0.5 else None,
     )
     return TableModel(
         travel_x_mm=400.0,

@@ -10,7 +10,8 @@ from controller.stepping.pulses import Pulses
 from parser.geometry.curves import Floats
 from parser.program import parse_program
 from sim.setup.machine.machine import Machine
-from sim.setup.machine.table import Motor, TableEngine, TableModel
+from sim.setup.machine.motor import Motor
+from sim.setup.machine.table import TableEngine, TableModel
 from sim.table.follow import Following, Setup
 from sim.table.motion import Motion, Moved, TableRun, driven, motion_of
 from sim.table.ticks import Sampling, Ticks

@@ -36,8 +36,8 @@ from sim.setup.machine.machine import Machine
 from sim.setup.toml.reader import Bound, number
 from sim.table.losses import Loss
 from sim.table.motion import Motion, TableRun, driven, motion_of
-from sim.table.rating import motors_um
 from sim.table.ticks import Sampling
+from sim.table.turning import motors_um
 
 FEED_MM_MIN: Final = Bound(0.1, 100_000.0)
 LEAST_RADIUS_MM: Final = 0.1
@@ -166,7 +166,10 @@ def _run(test: CircleTest, sense: Sense, progress: Progress) -> _Run:
     measured = (trace.t_s >= start_s) & (trace.t_s <= end_s)
     center_um = trace.commanded_um[0] - (test.radius_um, 0.0)
     turned = window.pulses()
-    motors = motors_um(turned, window.before_um, step_time_s, trace.t_s[measured])
+    if motion.table.model.motor.loop is None:
+        motors = motors_um(turned, window.before_um, step_time_s, trace.t_s[measured])
+    else:
+        motors = trace.commanded_um[measured]  # what the loop does counts to the drive
     return _Run(
         table=MeasuredTurn(sense, trace.table_um[measured] - center_um),
         motors=MeasuredTurn(sense, motors - center_um),

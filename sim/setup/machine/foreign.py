@@ -28,6 +28,8 @@ _FULL_STEPS: Final = 200.0
 """``full_steps_per_rotation`` where it is left out."""
 _STEP_UM: Final = 1.0
 """Of a wire table, as drycut steps it."""
+_OF_STEPS: Final = ("step_time_ms", "electrical_period_um")
+"""What a motor has that no position loop is closed about."""
 _NOT_SAID: Final = ("masses", "stiffness", "friction", "force", "cutting")
 """What no such file says: names of texts ``machine.dropped-…``."""
 
@@ -203,9 +205,40 @@ def _linuxcnc(of: _File) -> ForeignMachine:
         if scale is not None and scale[0] != 0.0:
             step_um = from_mm(unit) / abs(scale[0])
             dropped += [Remark("step", {"axis": axis.upper(), "step": _rounded(step_um)})] * (abs(step_um - 1.0) > 1e-6)
+    loops = [_loop(of, joint) for _, _, joint in axes]
+    if loops[0] and _alike(*loops):
+        carried += loops[0]
+        return ForeignMachine("LinuxCNC", of.name, tuple(carried), (*dropped, *map(Remark, ("encoder", *_NOT_SAID))))
+    dropped += [Remark("loops", {})] * any(loops)
     errors = [found for _, _, joint in axes if (found := of.number(joint, "ferror")) is not None]
     dropped += [Remark("following-error", {"error": _rounded(from_mm(unit) * value)}) for value, _ in errors[:1]]
     return ForeignMachine("LinuxCNC", of.name, tuple(carried), (*dropped, *map(Remark, _NOT_SAID)))
+
+
+def _loop(of: _File, joint: str) -> tuple[Carried, ...]:
+    """The position loop of a joint with an encoder; none where it is stepped, or says no gain or following error.
+
+    Its gain is that of LinuxCNC's `pid`, whose output is a speed: in 1/s whatever the unit. It looks once in the
+    servo period of ``[EMCMOT]``, ns.
+    """
+    stepped = any(of.number(joint, option) for option in ("step_scale", "stepgen_maxaccel"))
+    if stepped or not of.number(joint, "encoder_scale", "input_scale"):
+        return ()
+    found = (
+        *of.carried("following_error_limit_um", from_mm(of.unit_mm), joint, "ferror"),
+        *of.carried("position_gain_per_s", 1.0, joint, "p"),
+        *of.carried("feed_forward", 1.0, joint, "ff1"),
+        *of.carried("loop_period_ms", 1e-6, "emcmot", "servo_period"),
+        *of.carried("in_position_um", from_mm(of.unit_mm), joint, "deadband"),
+    )
+    if {"following_error_limit_um", "position_gain_per_s"} - {each.key for each in found}:
+        return ()
+    return Carried("kind", "servo", found[0].source), *found
+
+
+def _alike(first: tuple[Carried, ...], second: tuple[Carried, ...]) -> bool:
+    """Whether two loops say the same."""
+    return [each[:2] for each in first] == [each[:2] for each in second]
 
 
 def carried_over(base: Machine, foreign: ForeignMachine) -> list[WrittenSection]:
@@ -217,9 +250,14 @@ def carried_over(base: Machine, foreign: ForeignMachine) -> list[WrittenSection]
         of_base = dict(written.values)
         if "junction" in own:
             of_base.pop("corner_feed_mm_s", None)
+        if "position_gain_per_s" in own:
+            for key in _OF_STEPS:
+                of_base.pop(key, None)
         if written.section is TOP:
             of_base.pop("name_zh", None)
-            own = {"name": foreign.name, "assumed": [key for key in base.assumed if key not in values]}
+            gone = _OF_STEPS if "position_gain_per_s" in values else ()
+            assumed = [key for key in base.assumed if key not in {*values, *gone}]
+            own = {"name": foreign.name, "assumed": assumed}
             if measured := {key: within for key, within in base.measured if key not in values}:
                 own["measured"] = measured
             else:

@@ -16,7 +16,8 @@ from parser.dialect.reader import Registers
 from parser.findings.errors import Message, SettingsError
 from parser.units import from_mm
 from sim.setup.dialect import REGISTERS
-from sim.setup.machine.table import MOTOR, TABLE, TableEngine, TableModel, read_table
+from sim.setup.machine.motor import MOTOR
+from sim.setup.machine.table import TABLE, TableEngine, TableModel, read_table
 from sim.setup.obstacles import ARM, Outline
 from sim.setup.settable import INTERPOLATOR
 from sim.setup.toml.keys import Key, Section, WrittenSection

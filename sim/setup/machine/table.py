@@ -1,6 +1,5 @@
-"""The ``[table]`` and ``[motor]`` sections of a machine file: what is moved, what moves it, and what resists."""
+"""The ``[table]`` section of a machine file: what is moved, by what, what resists, and where its slides then stand."""
 
-import math
 from collections.abc import Callable, Mapping
 from itertools import pairwise
 from typing import Any, Literal, NamedTuple
@@ -10,18 +9,15 @@ import numpy as np
 from parser.findings.errors import SettingsError
 from parser.geometry.curves import Floats
 from parser.units import mm
+from sim.setup.machine.motor import FORCE_N, Motor, read_motor
 from sim.setup.toml.keys import Key, Section
 from sim.setup.toml.kinds import (
-    MS_AS_S,
     Number,
-    OneOf,
     ValueKind,
     limits,
 )
 from sim.setup.toml.reader import Bound, number, section
 
-_FORCE_N = Bound(0.1, 1e6)
-_RATE_HZ = Bound(0.0, 1e7)
 _TRAVEL = Number(Bound(1.0, 10_000.0), "mm")
 _MASS = Number(Bound(0.01, 100_000.0), "kg")
 _FRICTION = Number(Bound(0.0, 1e6), "N")
@@ -30,37 +26,6 @@ _SKEW = Bound(-1e4, 1e4)
 _PLACE_MM = Bound(-10_000.0, 10_000.0)
 _PITCH_UM = Bound(-1e4, 1e4)
 _BACKLASH = Number(Bound(0.0, 1e4), "µm")
-_OF_KIND = {"stepper": "electrical_period_um", "servo": "following_error_limit_um"}
-
-
-class Motor(NamedTuple):
-    """What turns the screw of each axis.
-
-    Attributes
-    ----------
-    kind
-        A stepper slips by whole electrical periods past its pull-out, a servo trips on its following error.
-    step_time_s
-        Time the motor takes for one step: it turns at constant speed from one place to the next.
-    electrical_period_um
-        Way of the table in one electrical period: six beats of 1 µm of a three-phase stepper with six beats.
-    following_error_limit_um
-        Lag at which a servo trips; infinite for a stepper.
-    force_curve
-        (step rate Hz, force N) from standstill on, rates rising; the force is linear between and constant past the
-        last.
-    """
-
-    kind: Literal["stepper", "servo"]
-    step_time_s: float
-    electrical_period_um: float
-    following_error_limit_um: float
-    force_curve: tuple[tuple[float, float], ...]
-
-    @property
-    def may_trip(self) -> bool:
-        """Whether it is a servo."""
-        return self.kind == "servo"
 
 
 Points = tuple[tuple[float, float], ...]
@@ -128,35 +93,6 @@ class TableModel(NamedTuple):
         return self.saddle_mass_kg + self.carriage_mass_kg, self.carriage_mass_kg
 
 
-class _ForceAtRate(ValueKind):
-    """Points [step rate Hz, force N] of a curve that begins with the force limit at standstill."""
-
-    name = "force-at-rate"
-
-    def checked(self, table: Mapping[str, Any], key: str, where: str) -> tuple[tuple[float, float], ...]:
-        """Its points."""
-        value, where = table[key], f"{where}: {key}"
-        if not isinstance(value, list) or not all(isinstance(point, list) and len(point) == 2 for point in value):
-            raise SettingsError("no-list-of-rates", where=where, found=value)
-        points = tuple(
-            (number(rate, _RATE_HZ, f"{where}: Hz"), number(force, _FORCE_N, f"{where}: N")) for rate, force in value
-        )
-        rates = (0.0, *(rate for rate, _ in points))
-        if any(later <= earlier for earlier, later in pairwise(rates)):
-            raise SettingsError("rates-do-not-rise", where=where, rates=list(rates[1:]))
-        return points
-
-    def written(self, value: Any) -> list[list[float]]:
-        """A list of lists."""
-        return [list(point) for point in value]
-
-    def schema(self) -> dict[str, Any]:
-        """Of its values."""
-        rate, force = ({"type": "number", **limits(bound)} for bound in (_RATE_HZ, _FORCE_N))
-        point = {"type": "array", "minItems": 2, "maxItems": 2, "prefixItems": [rate, force]}
-        return {"type": "array", "items": point}
-
-
 def _pitch_error(axis: int) -> Callable[[TableModel], Points | None]:
     """How the pitch errors of an axis are found; there are none where nobody measured them."""
     return lambda table: table.geometry.pitch_error[axis] or None
@@ -210,26 +146,9 @@ TABLE = Section(
         Key("scale_y_ppm", Number(_SKEW, "ppm"), "geometry.scale_ppm.1", default=0.0),
         Key("pitch_error_x", _PitchError(), default=(), get=_pitch_error(0)),
         Key("pitch_error_y", _PitchError(), default=(), get=_pitch_error(1)),
-        Key("drive_force_limit_n", Number(_FORCE_N, "N"), get=lambda table: table.motor.force_curve[0][1]),
+        Key("drive_force_limit_n", Number(FORCE_N, "N"), get=lambda table: table.motor.force_curve[0][1]),
     ),
     fills="table",
-)
-
-MOTOR = Section(
-    "motor",
-    (
-        Key("kind", OneOf(tuple(_OF_KIND)), default="stepper"),
-        Key("step_time_ms", Number(Bound(0.0, 1e3), "ms", MS_AS_S), "step_time_s", default=2.0),
-        Key(
-            "electrical_period_um",
-            Number(Bound(0.1, 1e4), "µm"),
-            default=6.0,
-            get=lambda motor: motor.electrical_period_um if motor.kind == "stepper" else None,
-        ),
-        Key("following_error_limit_um", Number(Bound(0.1, 1e6), "µm"), default=math.inf),
-        Key("force_at_rate", _ForceAtRate(), default=(), get=lambda motor: motor.force_curve[1:] or None),
-    ),
-    fills="table.motor",
 )
 
 
@@ -239,19 +158,7 @@ def read_table(content: Mapping[str, Any], where: str) -> TableModel:
     force_n = value.pop("drive_force_limit_n")
     pitch_error = tuple(value.pop(f"pitch_error_{axis}") for axis in "xy")
     value["geometry"] = Geometry(pitch_error=pitch_error, **value["geometry"])
-    return TableModel(motor=_motor(section(content, "motor", where), force_n, f"{where}: [motor]"), **value)
-
-
-def _motor(table: Mapping[str, Any], force_n: float, where: str) -> Motor:
-    """Motor of a section; `force_n` is what it pulls at standstill."""
-    value = MOTOR.read(table, where)
-    kind = value["kind"]
-    for of, key in _OF_KIND.items():
-        if kind != of and key in table:
-            raise SettingsError("key-of-another-kind", where=where, key=key, of=of, kind=kind)
-    if kind == "servo" and "following_error_limit_um" not in table:
-        raise SettingsError("following-error-limit-missing", where=where)
-    return Motor(force_curve=((0.0, force_n), *value.pop("force_at_rate")), **value)
+    return TableModel(motor=read_motor(section(content, "motor", where), force_n, f"{where}: [motor]"), **value)
 
 
 TableEngine = Literal["compiled", "pymunk"]

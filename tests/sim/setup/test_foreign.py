@@ -9,6 +9,7 @@ from controller.motion.limits import JunctionDeviation
 from parser.findings.errors import SettingsError
 from sim.setup.machine.foreign import carried_over, read_foreign
 from sim.setup.machine.machine import Machine, load_machine
+from sim.setup.machine.motor import PositionLoop
 from sim.setup.toml.keys import toml_text
 
 KLIPPER = """
@@ -50,6 +51,25 @@ SCALE = 20000
 MIN_LIMIT = 0
 MAX_LIMIT = 8
 BACKLASH = 0
+"""
+
+SERVOS = """
+[EMCMOT]
+SERVO_PERIOD = 1000000
+[TRAJ]
+LINEAR_UNITS = mm
+[JOINT_0]
+ENCODER_SCALE = 1000
+FERROR = 0.5
+P = 60
+FF1 = 0.9
+DEADBAND = 0.001
+[JOINT_1]
+ENCODER_SCALE = 1000
+FERROR = 0.5
+P = 60
+FF1 = 0.9
+DEADBAND = 0.001
 """
 
 
@@ -103,8 +123,33 @@ def test_linuxcnc_says_each_axis_in_its_unit(tmp_path: Path) -> None:
     assert notes["following-error"] == {"error": 1270.0}
 
 
+def test_linuxcnc_says_the_position_loop_of_joints_with_encoders(tmp_path: Path) -> None:
+    machine = begun(tmp_path, SERVOS)
+    assert machine.table.motor.kind == "servo"
+    assert machine.table.motor.following_error_limit_um == 500.0
+    assert machine.table.motor.loop == PositionLoop(60.0, 0.9, 0.001, "motor", 1.0)
+    assert not {"step_time_ms", "electrical_period_um"} & set(machine.assumed)
+    notes = {note.name for note in read_foreign(tmp_path / "other.cfg").dropped}
+    assert "encoder" in notes
+    assert "following-error" not in notes
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        (SERVOS.replace("P = 60\nFF1 = 0.9\nDEADBAND = 0.001\n[JOINT_1]", "P = 50\n[JOINT_1]"), {"loops"}),
+        (SERVOS.replace("ENCODER_SCALE = 1000", "STEP_SCALE = 1000"), set()),
+        (SERVOS.replace("FERROR", "MIN_FERROR"), set()),
+    ],
+)
+def test_loops_that_differ_or_are_none_do_not_carry_over(tmp_path: Path, text: str, told: set[str]) -> None:
+    machine = begun(tmp_path, text)
+    assert machine.table.motor == load_machine("dk7740").table.motor
+    assert {note.name for note in read_foreign(tmp_path / "other.cfg").dropped} & {"loops", "encoder"} == told
+
+
 @pytest.mark.parametrize("base", ["dk7740", "dk7750", "servo-400x500"])
-@pytest.mark.parametrize("text", [KLIPPER, LINUXCNC])
+@pytest.mark.parametrize("text", [KLIPPER, LINUXCNC, SERVOS])
 def test_a_file_that_is_begun_is_a_machine_file_on_any_base(tmp_path: Path, base: str, text: str) -> None:
     assert begun(tmp_path, text, base).area_rate_mm2_min == load_machine(base).area_rate_mm2_min
 

@@ -172,6 +172,7 @@ UNITS = {
     "ms": "ms",
     "kg": "kg",
     "hz": "Hz",
+    "per_s": "1/s",
     "deg": "°",
     "n": "N",
 }

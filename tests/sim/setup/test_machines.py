@@ -12,6 +12,7 @@ from parser.controller_words import Axis
 from parser.findings.errors import SettingsError
 from parser.units import from_mm
 from sim.setup.machine.machine import Machine, load_machine
+from sim.setup.machine.motor import PositionLoop
 from sim.setup.machine.table import TableModel
 
 SHIPPED = {path.stem: load_machine(path.stem) for path in sorted(MACHINES.glob("*.toml"))}
@@ -48,7 +49,7 @@ def table_of(tmp_path: Path, more: str) -> TableModel:
 def test_a_machine_without_them_has_no_friction_no_backlash_and_a_plain_stepper(tmp_path: Path) -> None:
     table = table_of(tmp_path, "")
     assert (table.friction_n, table.viscous_n_s_mm, table.backlash_um) == ((0.0, 0.0), (0.0, 0.0), (0.0, 0.0))
-    assert table.motor == ("stepper", 0.002, 6.0, math.inf, ((0.0, 2000.0),))
+    assert table.motor == ("stepper", 0.002, 6.0, math.inf, ((0.0, 2000.0),), None)
     assert table.moved_kg == (215.0, 95.0)
 
 
@@ -62,9 +63,13 @@ def test_keys_of_table_and_motor_go_where_they_belong(tmp_path: Path) -> None:
     )
     assert (table.friction_n, table.viscous_n_s_mm, table.backlash_um) == ((1.0, 2.0), (3.0, 4.0), (5.0, 6.0))
     curve = ((0.0, 2000.0), (100.0, 1500.5), (2000.0, 40.0))
-    assert table.motor == ("stepper", pytest.approx(0.007), 8.0, math.inf, curve)
+    assert table.motor == ("stepper", pytest.approx(0.007), 8.0, math.inf, curve, None)
     motor = table_of(tmp_path, "[motor]\nkind = 'servo'\nfollowing_error_limit_um = 9").motor
     assert (motor.kind, motor.following_error_limit_um) == ("servo", 9.0)
+    assert motor.loop is None
+    loop = "position_gain_per_s = 40\nfeed_forward = 0.5\nloop_period_ms = 2\nfeedback = 'scale'\nin_position_um = 0.5"
+    motor = table_of(tmp_path, f"[motor]\nkind = 'servo'\nfollowing_error_limit_um = 9\n{loop}").motor
+    assert motor.loop == PositionLoop(40.0, 0.5, 0.002, "scale", 0.5)
 
 
 @pytest.mark.parametrize(
@@ -99,6 +104,19 @@ def test_bad_friction_and_backlash_are_refused_by_file_and_key(tmp_path: Path, l
         ("electrical_period_um = 0", "electrical_period_um is 0; it must lie between 0.1 and 10000"),
         ("step_time_ms = -1", "step_time_ms is -1; it must lie between 0 and 1000"),
         ("step_time_ms = true", "step_time_ms is a number; found True"),
+        ("position_gain_per_s = 40", "position_gain_per_s belongs to a servo; found with kind = 'stepper'"),
+        (
+            "kind = 'servo'\nfollowing_error_limit_um = 100\nfeedback = 'scale'",
+            "feedback belongs to a position loop, which position_gain_per_s closes; found without that",
+        ),
+        (
+            "kind = 'servo'\nfollowing_error_limit_um = 100\nposition_gain_per_s = 40\nstep_time_ms = 2",
+            "step_time_ms is left out where position_gain_per_s closes a loop",
+        ),
+        (
+            "kind = 'servo'\nfollowing_error_limit_um = 100\nposition_gain_per_s = 400\nloop_period_ms = 5",
+            "position_gain_per_s times loop_period_ms is 2; from 2 on the loop runs away",
+        ),
         ("step_time_s = 0.1", "unknown key 'step_time_s'; did you mean step_time_ms"),
         ("force_at_rate = 500", r"force_at_rate is a list of \[step rate in Hz, force in N\]; found 500"),
         (

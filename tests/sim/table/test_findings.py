@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from parser.controller_words import Axis
 from parser.findings.catalogue import texts
 from parser.program import Program, parse_program
-from sim.setup.machine.table import Motor
+from sim.setup.machine.motor import Motor
 from sim.table.losses import MOST_FINDINGS, Loss, loss_findings
 
 STEPPER = Motor("stepper", 0.002, 6.0, math.inf, ((0.0, 2000.0),))

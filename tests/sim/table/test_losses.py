@@ -21,7 +21,8 @@ from table_runs import (
 
 from controller.motion.limits import Feeds
 from sim.setup.machine.machine import Machine, load_machine
-from sim.setup.machine.table import Motor, TableModel
+from sim.setup.machine.motor import Motor
+from sim.setup.machine.table import TableModel
 from sim.table.losses import Loss
 
 DAMPED = MODEL._replace(drive_damping_ratio=0.7)

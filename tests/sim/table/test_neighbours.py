@@ -8,7 +8,7 @@ from table_runs import draw, even_ticks
 from parser.controller_words import Axis
 from parser.findings.catalogue import texts
 from parser.program import parse_program
-from sim.setup.machine.table import Motor
+from sim.setup.machine.motor import Motor
 from sim.table.losses import Loss, loss_findings
 
 WEAK, SURE = (356, 390), (2, 3, 4, 9, 10, 14)

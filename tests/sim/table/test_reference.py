@@ -7,7 +7,8 @@ from table_runs import CENTRE, MODEL, draw, even_ticks, motion, moved, pulses_of
 from controller.motion.limits import Feeds
 from controller.stepping.pulses import Pulses
 from sim.setup.machine.machine import load_machine
-from sim.setup.machine.table import Motor, TableModel
+from sim.setup.machine.motor import Motor
+from sim.setup.machine.table import TableModel
 from sim.table.motion import Moved
 from sim.table.ticks import (
     SHAKEN_RAD,

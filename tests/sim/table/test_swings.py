@@ -12,7 +12,8 @@ from controller.compiled.loops import compiled
 from parser.controller_words import Axis as AxisName
 from parser.geometry.curves import Floats
 from sim.setup.machine.machine import load_machine
-from sim.setup.machine.table import Motor, TableModel
+from sim.setup.machine.motor import Motor
+from sim.setup.machine.table import TableModel
 from sim.table.axis import Axis, AxisDemand, Leg, State, next_leg, turned_to
 from sim.table.history import PEAK_COLUMNS, VALUES, Record
 from sim.table.losses import Slip
@@ -39,11 +40,11 @@ class Steps(NamedTuple):
 @compiled("(Axis, AxisDemand, State, Record)", Axis, AxisDemand, State, Record)
 def event_by_event(axis: Axis, demand: AxisDemand, state: State, record: Record) -> State:
     """What `sim.table.swings.followed` does, without any swing."""
-    while due_s(demand, state) < demand.until_s and state.noted.slip < len(record.slip_s):
+    while due_s(axis, demand, state) < demand.until_s and state.noted.slip < len(record.slip_s):
         if state.tripped_s < demand.braked_s:
             break
         if state.rests:
-            state = recorded(axis, demand, state, waited(state, due_s(demand, state)), record)
+            state = recorded(axis, demand, state, waited(state, due_s(axis, demand, state)), record)
             begins = Leg(state.course, state.course, 0.0, turned_to(axis, demand, state))
             state = recorded(axis, demand, state, begins, record)
         else:

@@ -14,7 +14,7 @@ from parser.geometry.curves import Floats
 from sim.table import follow
 from sim.table.drive import drives_of
 from sim.table.kicks import Kick, kicked
-from sim.table.rating import motors_um as turned_um
+from sim.table.turning import motors_um as turned_um
 
 FRICTION_N, VISCOUS_N_S_MM, BACKLASH_UM = (30.0, 20.0), (2.0, 1.5), (3.0, 2.0)
 RESISTING = MODEL._replace(friction_n=FRICTION_N, viscous_n_s_mm=VISCOUS_N_S_MM, drive_damping_ratio=0.7)
