@@ -5,8 +5,10 @@ What each figure of a made program comes to: blocks, length and time, and the ti
 
 import json
 import math
+from bisect import bisect_left
 from collections.abc import Iterator
 from itertools import pairwise
+from operator import attrgetter
 from typing import NamedTuple, Protocol
 
 import numpy as np
@@ -15,6 +17,7 @@ from parser import __version__
 from parser.drawing.model import Entity, FitFigures, LeftOut
 from parser.findings.catalogue import Language, Remark, remark_text, texts
 from parser.findings.findings import Finding
+from parser.geometry.curves import Floats
 from parser.shape.passes import Pass
 from parser.toolpath import Toolpath
 from parser.units import mm
@@ -73,7 +76,32 @@ def figure_sums(made: MadeProgram) -> tuple[FigureSum, ...]:
     sums = [_written(toolpath, rows) for rows in written] or [FigureSum()] * len(plan.cuts)
     if run is None or not ran:
         return tuple(sums)
-    return tuple(_timed(sum_, run, rows, cut) for sum_, rows, cut in zip(sums, ran, plan.cuts, strict=True))
+    what_ran = _ran(run)
+    return tuple(_timed(sum_, what_ran, rows, cut) for sum_, rows, cut in zip(sums, ran, plan.cuts, strict=True))
+
+
+class _Ran(NamedTuple):
+    """What ran: the time of each row, s; passes by their first rows, and these; rows before which it stops, rising."""
+
+    time_s: Floats
+    passes: list[Pass]
+    firsts: list[int]
+    stops: list[int]
+
+    def passes_in(self, rows: Spans) -> list[Pass]:
+        """Those that begin in some rows."""
+        return [each for span in sorted(rows) for each in self.passes[_within(self.firsts, *span)]]
+
+
+def _ran(run: DryRun) -> _Ran:
+    passes = sorted(run.passes.passes, key=attrgetter("first"))
+    stops = sorted(stop.after for stop in run.toolpath.stops)
+    return _Ran(run.block_time_s, passes, [each.first for each in passes], stops)
+
+
+def _within(numbers: list[int], first: int, past: int) -> slice:
+    """Which of rising numbers lie from one number on and before another."""
+    return slice(bisect_left(numbers, first), bisect_left(numbers, past))
 
 
 def _written(toolpath: Toolpath, rows: Spans) -> FigureSum:
@@ -85,16 +113,14 @@ def _written(toolpath: Toolpath, rows: Spans) -> FigureSum:
     )
 
 
-def _timed(figure_sum: FigureSum, run: DryRun, rows: Spans, cut: FigureCut) -> FigureSum:
-    time_s = run.block_time_s
-    found = [each for each in run.passes.passes if any(first <= each.first < past for first, past in rows)]
-    stretches = _as_planned(found, rows, [stop.after for stop in run.toolpath.stops], cut)
+def _timed(figure_sum: FigureSum, ran: _Ran, rows: Spans, cut: FigureCut) -> FigureSum:
+    time_s, stretches = ran.time_s, _as_planned(ran, rows, cut)
     pass_s = [float(np.sum(time_s[first:past])) for first, past in stretches]
     times = tuple(pass_s) if len(pass_s) == len(cut.all_passes) else ()
     return figure_sum._replace(time_s=float(sum(np.sum(time_s[first:past]) for first, past in rows)), pass_s=times)
 
 
-def _as_planned(found: list[Pass], rows: Spans, stops: list[int], cut: FigureCut) -> Spans:
+def _as_planned(ran: _Ran, rows: Spans, cut: FigureCut) -> Spans:
     """First row and past the last of each pass of a figure as the plan has them: what is cut off stands last.
 
     A run takes a single pass and the cut of its tab, which goes on behind a stop, for one pass. Where the wire goes
@@ -103,9 +129,9 @@ def _as_planned(found: list[Pass], rows: Spans, stops: list[int], cut: FigureCut
     passes: Spans = []
     cut_off: Spans = []
     is_there_and_back = any(np.allclose(each.along.start_um[0], each.along.end_um[-1]) for each in cut.cut_off)
-    for each in found:
+    for each in ran.passes_in(rows):
         past = each.last + 1
-        inside = [stop for stop in stops if each.first < stop < past]
+        inside = ran.stops[_within(ran.stops, each.first + 1, past)]
         is_again = bool(cut_off) and any(low <= cut_off[-1][0] and past <= high for low, high in rows)
         if each.is_tab and is_again:
             cut_off[-1] = (cut_off[-1][0], past if is_there_and_back else cut_off[-1][1])
