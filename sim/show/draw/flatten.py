@@ -5,13 +5,14 @@ The toolpath as points: arcs become chords, all of them at once in numpy.
 Fewer points for the same line: a trace has one for each pulse, a picture only so many pixels.
 """
 
+import math
 from dataclasses import replace
 from itertools import pairwise
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
+from controller.compiled.loops import compiled, loop_part
 from parser.geometry.along import headings, places
 from parser.geometry.curves import Bools, Curves, Floats, Ints, box_of, extents
 
@@ -121,6 +122,7 @@ def cut_runs(points_um: Floats, row: Ints, is_jump: Bools) -> list[Floats]:
     return [points_um[max(a - 1, 0) : b] for a, b in pairwise(edges) if not air[a]]
 
 
+_TINY: Final = float(np.finfo(np.float64).tiny)
 CHORD_PX: Final = 0.15
 """How far a drawn line may leave the true one."""
 
@@ -128,8 +130,7 @@ CHORD_PX: Final = 0.15
 def simplify(points: Floats, tolerance: float) -> Floats:
     """Leave out points that nobody could see.
 
-    Stretches of 2, 4, 8 … chords become one wherever it stays close to their points, so the cost is n log n with no
-    loop over points.
+    Stretches of 2, 4, 8 … chords become one wherever it stays close to their points, so the cost is n log n.
 
     Parameters
     ----------
@@ -142,35 +143,51 @@ def simplify(points: Floats, tolerance: float) -> Floats:
     -------
     (k, 2) float64, 1 ≤ k ≤ n, with the first and the last point.
     """
-    points = _thin(points, tolerance * 2 / 3)
-    place = np.ascontiguousarray(points).view(np.complex128)[:, 0]
-    keep = np.ones(len(points), dtype=np.bool_)
+    points = np.array(points, dtype=np.float64)  # a copy: a loop takes no column that is read-only or strided
+    stays = np.empty(len(points), dtype=np.bool_)
+    thinned = points[: _thin(points, tolerance * 2 / 3)]
+    _straighten(thinned, tolerance / 3, stays)
+    return thinned[stays[: len(thinned)]]
+
+
+@compiled("i8(f8[:, ::1], f8)")
+def _thin(points: Floats, step: float) -> int:
+    """Move one point for each `step` of travel, and both ends, to the front; how many these are."""
+    travel, mark, number = 0.0, 0.0, 1
+    last_x, last_y = points[0, 0], points[0, 1]
+    for at in range(1, len(points)):
+        x, y = points[at, 0], points[at, 1]
+        travel += math.hypot(x - last_x, y - last_y)
+        last_x, last_y = x, y
+        now = math.floor(travel / step)
+        if now != mark or at == len(points) - 1:
+            points[number, 0], points[number, 1] = x, y
+            number += 1
+        mark = now
+    return number
+
+
+@compiled("void(f8[:, ::1], f8, b1[::1])")
+def _straighten(points: Floats, tolerance: float, stays: Bools) -> None:
+    """Tell which of n points stay, where a line that leaves the others out comes as near to each as a tolerance."""
+    stays[:] = True
     size = 2
     while size < len(points):
-        flat = _distance(place, size).max(axis=0) <= tolerance / 3
-        keep[: size * len(flat)].reshape(-1, size)[flat, 1:] = False
+        for first in range(0, len(points) - size, size):
+            if _is_straight(points, first, size, tolerance):
+                stays[first + 1 : first + size] = False
         size *= 2
-    return points[keep]
 
 
-def _thin(points: Floats, step: float) -> Floats:
-    """Keep one point for each `step` of travel, and both ends."""
-    travel = np.cumsum(np.hypot(*np.diff(points, axis=0).T))
-    mark = np.floor(np.concatenate([[0.0], travel]) / step)
-    keep = np.concatenate([[True], mark[1:] != mark[:-1]])
-    keep[-1] = True
-    return np.asarray(points[keep], dtype=np.float64)
-
-
-def _distance(place: NDArray[np.complex128], size: int) -> Floats:
-    """Distance (k, m) of the k inner places of each of m stretches of `size` chords from the chord of the stretch.
-
-    Places are x + iy: a half as many calls as with two columns. What is left at the end makes no stretch.
-    """
-    whole = (len(place) - 1) // size * size
-    first = place[:whole:size]
-    chord = place[size : whole + 1 : size] - first
-    inner = np.ascontiguousarray(place[:whole].reshape(-1, size)[:, 1:].T) - first
-    square = np.maximum((chord * chord.conj()).real, np.finfo(np.float64).tiny)
-    share = np.clip((inner * chord.conj()).real / square, 0.0, 1.0)
-    return np.asarray(np.abs(inner - share * chord), dtype=np.float64)
+@loop_part("b1(f8[:, ::1], i8, i8, f8)")
+def _is_straight(points: Floats, first: int, size: int, tolerance: float) -> bool:
+    """Whether the inner points of a stretch of `size` chords lie as near to its chord as a tolerance."""
+    x, y = points[first, 0], points[first, 1]
+    by_x, by_y = points[first + size, 0] - x, points[first + size, 1] - y
+    square = max(by_x * by_x + by_y * by_y, _TINY)
+    for at in range(first + 1, first + size):
+        inner_x, inner_y = points[at, 0] - x, points[at, 1] - y
+        share = min(max((inner_x * by_x + inner_y * by_y) / square, 0.0), 1.0)
+        if math.hypot(inner_x - share * by_x, inner_y - share * by_y) > tolerance:
+            return False
+    return True

@@ -207,7 +207,7 @@ def quiz_of(run: DryRun, steps: Pulses) -> QuizEntry:
 def sets_of(pool: list[QuestionEntry]) -> list[list[int]]:
     """For each set the indices of its questions, in the order of their rows; none where the pool is empty."""
     kind, block = (_numbered([entry[key] for entry in pool]) for key in ("about", "block"))
-    return [_set(kind, block, number) for number in range(1, SETS + 1)] if pool else []
+    return _sets(kind, block) if pool else []
 
 
 def _numbered(values: list[Any]) -> Ints:
@@ -234,17 +234,27 @@ def _kinds(run: DryRun) -> tuple[About, ...]:
     return every if run.toolpath.words is not None else ("turn", "end")
 
 
-def _set(kind: Ints, block: Ints, number: int) -> list[int]:
-    """Questions, by their kinds and blocks (n,), of as many of both as there are; the others left to chance."""
-    chance = Random(number)  # noqa: S311 - the same for all who are told the number
-    order = np.array(sorted(range(len(kind)), key=lambda _: chance.random()), dtype=np.int64)
-    of_kind, of_block = np.zeros(len(kind), dtype=np.int64), np.zeros(len(kind), dtype=np.int64)  # chosen ones
-    chosen: list[int] = []
-    while len(order) and len(chosen) < IN_A_SET:
-        at = int(np.argmin(of_kind[kind[order]] * (IN_A_SET + 1) + of_block[block[order]]))
-        best = int(order[at])
-        order = np.delete(order, at)
-        chosen.append(best)
-        of_kind[kind[best]] += 1
-        of_block[block[best]] += 1
-    return sorted(chosen)
+def _sets(kind: Ints, block: Ints) -> list[list[int]]:
+    """Questions, by their kinds and blocks (n,), of as many of both as there are; the others left to chance.
+
+    All sets are chosen at once: each takes the first question in its own order of which it has taken the kind least,
+    and then the block.
+    """
+    order = np.array([_shuffled(len(kind), number) for number in range(1, SETS + 1)])
+    kinds, blocks, every = kind[order], block[order], np.arange(SETS)
+    of_kind = np.zeros((SETS, kind.max() + 1), dtype=np.int64)
+    of_block = np.zeros((SETS, block.max() + 1), dtype=np.int64)
+    is_chosen = np.zeros(order.shape, dtype=np.bool_)
+    for _ in range(min(IN_A_SET, len(kind))):
+        taken = of_kind[every[:, None], kinds] * (IN_A_SET + 1) + of_block[every[:, None], blocks]
+        at = np.argmin(np.where(is_chosen, np.iinfo(np.int64).max, taken), axis=1)
+        is_chosen[every, at] = True
+        of_kind[every, kinds[every, at]] += 1
+        of_block[every, blocks[every, at]] += 1
+    return [sorted(own[chosen].tolist()) for own, chosen in zip(order, is_chosen, strict=True)]
+
+
+def _shuffled(count: int, number: int) -> list[int]:
+    """Numbers below `count` in an order left to chance, the same for all who are told the number of the set."""
+    chance = Random(number)  # noqa: S311 - nothing is kept secret by it
+    return sorted(range(count), key=lambda _: chance.random())
