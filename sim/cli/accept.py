@@ -112,13 +112,13 @@ def _add(technology: "Technology", output: Path) -> None:
 def _write(folder: Path) -> None:
     """The drawing of the piece and its limits; nothing where one of them stands there."""
     from sim.base.files import staged
-    from sim.make.piece import piece_dxf, piece_limits
+    from sim.make.piece import piece_dxf, piece_limits_text
     from sim.show.terminal.printer import say
 
     for name in _NAMES:
         if (folder / name).exists():
             raise click.BadParameter(Message("stands-there", file=folder / name), param_hint="--piece")
     with staged(folder, list(_NAMES)) as stage:
-        for name, text in zip(_NAMES, (piece_dxf(), piece_limits()), strict=True):
+        for name, text in zip(_NAMES, (piece_dxf(), piece_limits_text()), strict=True):
             (stage / name).write_text(text, encoding="utf-8", newline="")
     say(words()("commands.written", names=", ".join(str(folder / name) for name in _NAMES)))

@@ -1,5 +1,6 @@
 """``drycut fit``."""
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -12,6 +13,7 @@ from sim.cli.spoken.values import FilePath, offer_machines
 
 if TYPE_CHECKING:
     from sim.measure.fit.circle import CircleFit
+    from sim.measure.fit.piece import PieceFit
     from sim.setup.machine.machine import Machine
 
 _USUAL = "dk7740"
@@ -21,6 +23,7 @@ _USUAL = "dk7740"
 @click.argument("file", type=FilePath(path_type=Path), metavar="FILE.csv")
 @click.option("--back", type=FilePath(path_type=Path, dir_okay=False), metavar="FILE.csv")
 @click.option("--corner", is_flag=True)
+@click.option("--limits", type=FilePath(path_type=Path), metavar="FILE.toml")
 @click.option("--feed", type=Speed())
 @click.option("--machine", metavar="NAME|FILE", shell_complete=offer_machines)
 @click.option("-o", "--output", type=FilePath(path_type=Path), metavar="FILE.toml")
@@ -29,37 +32,48 @@ def fit(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     file: Path,
     back: Path | None,
     corner: bool,
+    limits: Path | None,
     feed: float | None,
     machine: str | None,
     output: Path | None,
     as_json: bool,
 ) -> None:
-    """Tell what a measured circle says of a machine, or a corner of the wire.
+    """Tell what a measured circle or piece says of a machine, or a corner of the wire.
 
     \b
     drycut fit circle.csv --feed 500mm/min --machine mine.toml
     drycut fit ccw.csv --back cw.csv -o mine.toml
     drycut fit corner.csv --corner
+    drycut fit piece.csv --machine dk7740 -o mine.toml
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     from parser.text.encoding import printable
     from sim.measure.fit.circle import fit_circle
     from sim.measure.fit.model import document_text
-    from sim.measure.fit.rows import read_circle
+    from sim.measure.fit.rows import is_of_features, read_circle
     from sim.setup.machine.machine import load_machine
-    from sim.show.terminal.fit import print_fit
-    from sim.show.terminal.layout import paragraph
-    from sim.show.terminal.printer import say, write
+    from sim.show.terminal.fit import print_fit, print_piece
+    from sim.show.terminal.printer import write
 
+    others = {"--back": back, "--feed": feed, "--machine": machine, "-o": output, "--limits": limits}
     if corner:
-        for option, value in (("--back", back), ("--feed", feed), ("--machine", machine), ("-o", output)):
-            if value is not None:
-                raise click.BadParameter(Message("not-with-corner"), param_hint=option)
+        _refuse(others, "not-with-corner")
         _tell_corner(file, as_json=as_json)
         return
     if output is not None and output.suffix.lower() != ".toml":
         raise click.BadParameter(Message("machine-is-toml", output=output), param_hint="-o")
     if feed is not None and feed <= 0.0:
         raise click.BadParameter(Message("not-above-0"), param_hint="--feed")
+    if is_of_features(file):
+        _refuse({"--back": back}, "not-of-a-piece")
+        of_piece = _piece(file, limits)
+        off_um = 0.0 if output is None else _write(of_piece, load_machine(machine or _USUAL), feed, output)
+        if as_json:
+            write(document_text(printable(str(file)), of_piece, words()), "json")
+        else:
+            print_piece(of_piece, spoken())
+            _tell_written(output, off_um)
+        return
+    _refuse({"--limits": limits}, "limits-of-a-piece")
     # A machine file begins somewhere, and its own circle is fitted as the measured one was.
     base = None if machine is None and output is None else load_machine(machine or _USUAL)
     by_points = base is not None and base.controller.interpolation == "point-by-point"
@@ -69,10 +83,35 @@ def fit(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
         write(document_text(printable(str(file)), done, words()), "json")
     else:
         print_fit(done, spoken(), "" if machine is not None else "unknown" if base is None else "usual")
-        if off_um:
-            paragraph(words()("fit.still-off", off=f"{off_um:.2f}"), "yellow")
-        if output is not None:
-            say(words()("commands.written", names=str(output)))
+        _tell_written(output, off_um)
+
+
+def _refuse(options: Mapping[str, object], why: str) -> None:
+    """BadParameter for the first of some options that is given; `why` is the name of a message."""
+    for option, value in options.items():
+        if value is not None:
+            raise click.BadParameter(Message(why), param_hint=option)
+
+
+def _tell_written(output: Path | None, off_um: float) -> None:
+    """Which machine file was written, and by how much it is still off."""
+    from sim.show.terminal.layout import paragraph
+    from sim.show.terminal.printer import say
+
+    if off_um:
+        paragraph(words()("fit.still-off", off=f"{off_um:.2f}"), "yellow")
+    if output is not None:
+        say(words()("commands.written", names=str(output)))
+
+
+def _piece(file: Path, limits: Path | None) -> "PieceFit":
+    """The fit of a test piece: drycut's own, where no limits name the sizes of another one."""
+    from sim.make.piece import piece_limits
+    from sim.measure.accept.judge import read_piece
+    from sim.measure.fit.piece import fit_piece
+    from sim.setup.limits import load_limits
+
+    return fit_piece(read_piece(file), load_limits(limits) if limits is not None else piece_limits())
 
 
 def _tell_corner(file: Path, *, as_json: bool) -> None:
@@ -91,7 +130,7 @@ def _tell_corner(file: Path, *, as_json: bool) -> None:
         print_corner(of_corner, spoken())
 
 
-def _write(done: "CircleFit", base: "Machine", feed_um_s: float | None, output: Path) -> float:
+def _write(done: "CircleFit | PieceFit", base: "Machine", feed_um_s: float | None, output: Path) -> float:
     """The machine file, with a line for what was measured of each of its keys; gives the µm it is off, if any."""
     from sim.base.files import staged
     from sim.cli.progress import StageProgress
@@ -105,7 +144,7 @@ def _write(done: "CircleFit", base: "Machine", feed_um_s: float | None, output: 
     lines = [
         f"# {each.name}: {each.value:.3f} {each.unit}, {each.least:.3f} to {each.most:.3f} (95 %)\n"
         for each in done.parameters
-        if each.name.startswith(("reversal", "squareness", "scale")) and each.value is not None
+        if each.name.startswith(("reversal", "squareness", "scale", "mean")) and each.value is not None
     ]
     if off_um:
         lines.append(f"# lost motion still differs by {off_um:.2f} µm from what was measured\n")

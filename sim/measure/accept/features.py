@@ -6,18 +6,29 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from parser.geometry.curves import Floats
-from sim.measure.fit.circle import algebraic_circle
+from sim.measure.statistics import algebraic_circle
 
 LEAST_PLACES: Final = {"circle": 5, "width": 5}
 """Of a feature: one more than what is solved for, and one besides."""
 
 
 class Size(NamedTuple):
-    """A size µm with its standard error, and how far the places lie off the form, from the highest to the lowest."""
+    """A size as places tell it.
+
+    Attributes
+    ----------
+    size_um, error_um
+        With its standard error.
+    form_um, noise_um
+        How far the places lie off the form, from the highest to the lowest, and their standard deviation.
+    free
+        Degrees of freedom of that.
+    """
 
     size_um: float
     error_um: float
     form_um: float
+    noise_um: float
     free: int
 
 
@@ -31,8 +42,8 @@ def circle_size(place_um: Floats) -> Size:
         step = np.linalg.lstsq(columns, away - radius, rcond=None)[0]
         center, radius = center + step[:2], radius + float(step[2])
     off = np.hypot(*(place_um - center).T) - radius
-    error, free = _error(columns, off, 2)
-    return Size(2.0 * radius, 2.0 * error, float(np.ptp(off)), free)
+    noise, error, free = _error(columns, off, 2)
+    return Size(2.0 * radius, 2.0 * error, float(np.ptp(off)), noise, free)
 
 
 def width_size(place_um: Floats, across_rad: float) -> Size | None:
@@ -46,13 +57,13 @@ def width_size(place_um: Floats, across_rad: float) -> Size | None:
     near_um, far_um, slope = np.linalg.lstsq(columns, across, rcond=None)[0].tolist()
     off = across - columns @ np.array([near_um, far_um, slope])
     tilt = math.hypot(1.0, slope)
-    error, free = _error(np.column_stack([columns[:, 0] + columns[:, 1], columns[:, 1], columns[:, 2]]), off, 1)
+    noise, error, free = _error(np.column_stack([columns[:, 0] + columns[:, 1], columns[:, 1], columns[:, 2]]), off, 1)
     form = max(float(np.ptp(off[side])) for side in (far, ~far)) / tilt
-    return Size((far_um - near_um) / tilt, error / tilt, form, free)
+    return Size((far_um - near_um) / tilt, error / tilt, form, noise / tilt, free)
 
 
-def _error(columns: Floats, off: Floats, at: int) -> tuple[float, int]:
-    """The standard error of what a column stands for, and degrees of freedom."""
+def _error(columns: Floats, off: Floats, at: int) -> tuple[float, float, int]:
+    """The standard deviation of what is off, the standard error of what a column stands for, and degrees of freedom."""
     free = len(off) - columns.shape[1]
-    variance = float((off**2).sum()) / free
-    return math.sqrt(variance * float(np.linalg.pinv(columns.T @ columns)[at, at])), free
+    noise = math.sqrt(float((off**2).sum()) / free)
+    return noise, noise * math.sqrt(float(np.linalg.pinv(columns.T @ columns)[at, at])), free

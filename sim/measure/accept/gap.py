@@ -13,7 +13,7 @@ import numpy as np
 from parser.findings.errors import SettingsError
 from parser.units import mm
 from sim.measure.accept.judge import Judgement
-from sim.measure.fit.circle import student
+from sim.measure.statistics import student
 from sim.setup.technology import GAP_WITHIN_UM, Choice, Cut, Technology
 
 _SHARE: Final = 0.975

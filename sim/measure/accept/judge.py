@@ -15,7 +15,7 @@ from parser.findings.errors import SettingsError
 from parser.geometry.curves import Floats
 from parser.units import UM_PER_MM
 from sim.measure.accept.features import LEAST_PLACES, Size, circle_size, width_size
-from sim.measure.fit.circle import student
+from sim.measure.statistics import student
 from sim.setup.limits import FeatureLimits, Limits
 from sim.setup.rows import read_rows
 from sim.setup.toml.reader import Bound
@@ -24,6 +24,8 @@ Verdict = Literal["pass", "to-check", "fail"]
 _PLACE_MM: Final = Bound(-1e5, 1e5)
 _COLUMNS: Final = ("feature", "x_mm", "y_mm", "z_mm")
 _SHARE: Final = 0.975
+CORNER: Final = "corner"
+"""Beginning of the names of rows that lie along an inside corner: they have no size, and tell of the wire."""
 
 
 class Judged(NamedTuple):
@@ -116,7 +118,7 @@ def judged(piece: dict[str, Places], limits: Limits) -> Judgement:
         for z_mm, size in sizes:
             found += _judge(feature, z_mm, size, limits.uncertainty_um)
     known = {feature.name for feature in limits.features}
-    others = tuple(name for name in piece if name not in known)
+    others = tuple(name for name in piece if name not in known and not name.startswith(CORNER))
     if len(missing) == len(limits.features):
         raise SettingsError("piece-without-feature", names=", ".join(known))
     return Judgement(tuple(found), tuple(missing), others, tuple(_causes(found)))

@@ -1,16 +1,22 @@
 """Model of ``drycut.accept/1`` (docs/accept.md), and a judgement as such a document."""
 
 import json
-from typing import Annotated, Literal, TypedDict
+from typing import Annotated, Literal, Protocol, TypedDict
 
 from parser import __version__
 from parser.documents import Count, Document, Size, Text, Version, one_of
 from sim.measure.accept.gap import MeasuredGap
 from sim.measure.accept.judge import Judged, Judgement
-from sim.measure.fit.model import Say
 
 _DIGITS = 6
 VerdictName = Annotated[str, one_of("pass", "to-check", "fail")]
+
+
+class Say(Protocol):
+    """Words for people in one language: the text of a key."""
+
+    def __call__(self, key: str, /) -> str:
+        """Text of a key; KeyError where there is none."""
 
 
 class CharacteristicEntry(TypedDict):

@@ -27,6 +27,7 @@ from controller.stepping.chunks import chunk_of
 from controller.stepping.steps import interpolate_words, stepped_words
 from parser.findings.errors import SettingsError
 from parser.geometry.curves import Bools, Floats, Ints, curves_between
+from sim.measure.statistics import algebraic_circle, explained, student
 
 LEVEL: Final = 0.95
 LEAST_PLACES: Final = 24
@@ -178,15 +179,6 @@ def _cells(angle: Floats) -> Ints:
     return cell
 
 
-def algebraic_circle(place_um: Floats) -> tuple[Floats, float]:
-    """Centre (2,) and radius µm of the circle through places (n, 2), by least squares of x² + y² (I. Kåsa, 1976)."""
-    middle = place_um.mean(axis=0)
-    x, y = (place_um - middle).T
-    columns = np.column_stack([x, y, np.ones(len(x))])
-    a, b, c = np.linalg.lstsq(columns, x**2 + y**2, rcond=None)[0].tolist()
-    return middle + 0.5 * np.array([a, b]), math.sqrt(max(c + 0.25 * (a * a + b * b), 0.0))
-
-
 def _senses(angle: Floats) -> Floats:
     """(n,) which way round the places are run. SettingsError where they lie in no order."""
     run = np.unwrap(angle)
@@ -254,7 +246,7 @@ def _parameters(
     variance = float(((off[is_used] - columns @ solved) ** 2).sum()) / free
     errors = np.sqrt(variance * np.diag(np.linalg.pinv(columns.T @ columns)))
     reach = student(0.5 * (1.0 + LEVEL), free) * errors
-    shared = _explained(columns)
+    shared = explained(columns)
     (x, y), radius = circle[0].tolist(), circle[1]
     base = {"radius_ccw": radius, "radius_cw": radius, "center_x": x, "center_y": y}
     alone = "squareness" if "lag_difference" not in design.names else ""
@@ -289,25 +281,6 @@ def _not_told(found: list[Parameter], one_direction: bool, feed_um_s: float | No
         Parameter("backlash_y", "µm", why="with-friction"),
         Parameter("mean_scale", "ppm", why="with-radius"),
     )
-
-
-def _explained(columns: Floats) -> Floats:
-    """(p,) the share of each column's sum of squares that the others explain, 0 to 1."""
-    shares = np.zeros(columns.shape[1])
-    for at in range(columns.shape[1]):
-        others = np.delete(columns, at, axis=1)
-        left = columns[:, at] - others @ np.linalg.lstsq(others, columns[:, at], rcond=None)[0]
-        shares[at] = 1.0 - float((left**2).sum()) / max(float((columns[:, at] ** 2).sum()), 1e-30)
-    return shares
-
-
-def student(share: float, free: int) -> float:
-    """Quantile of Student's t, by its expansion about the normal one (Abramowitz and Stegun 26.7.5)."""
-    z = NormalDist().inv_cdf(share)
-    first = (z**3 + z) / 4.0
-    second = (5.0 * z**5 + 16.0 * z**3 + 3.0 * z) / 96.0
-    third = (3.0 * z**7 + 19.0 * z**5 + 17.0 * z**3 - 15.0 * z) / 384.0
-    return z + first / free + second / free**2 + third / free**3
 
 
 def _lack(columns: Floats, angle: Floats, off: Floats, is_used: Bools) -> str:

@@ -18,7 +18,8 @@ import numpy as np
 
 from parser.findings.errors import SettingsError
 from parser.geometry.curves import Floats
-from sim.measure.fit.circle import LEVEL, Parameter, has_few_runs, student
+from sim.measure.fit.circle import LEVEL, Parameter, has_few_runs
+from sim.measure.statistics import student
 
 LEAST_PLACES: Final = 20
 _OF_FACES: Final = 0.25

@@ -1,21 +1,18 @@
 """Model of ``drycut.fit/1`` (docs/fit.md), and a fit as such a document."""
 
 import json
-from typing import Annotated, Literal, Protocol, TypedDict
+from typing import Annotated, Literal, TypedDict
 
 from parser import __version__
 from parser.documents import Count, Document, Size, Text, Version, one_of
+from sim.measure.accept.model import Say
 from sim.measure.fit.circle import CircleFit, Parameter
 from sim.measure.fit.corner import CornerFit
+from sim.measure.fit.piece import PieceFit
 
 _DIGITS = 6
 
-
-class Say(Protocol):
-    """Words for people in one language: the text of a key."""
-
-    def __call__(self, key: str, /) -> str:
-        """Text of a key; KeyError where there is none."""
+Fit = CircleFit | CornerFit | PieceFit
 
 
 class ParameterEntry(TypedDict):
@@ -38,7 +35,7 @@ class LackEntry(TypedDict):
 
 
 class FitDocument(TypedDict):
-    """What a measured circle tells of a machine, or a corner of the wire; that has no directions."""
+    """What a measured circle or piece tells of a machine, or a corner of the wire; the last two have no directions."""
 
     schema: Literal["drycut.fit/1"]
     drycut: Version
@@ -54,14 +51,14 @@ class FitDocument(TypedDict):
 FIT = Document(FitDocument, "docs/fit.md")
 
 
-def document(file: str, fit: CircleFit | CornerFit, say: Say) -> FitDocument:
+def document(file: str, fit: Fit, say: Say) -> FitDocument:
     """A fit as plain lists, dicts, numbers and None; `say` has the texts of keys."""
     return {
         "schema": "drycut.fit/1",
         "drycut": __version__,
         "file": file,
         "places": fit.places,
-        "left_out": fit.left_out if isinstance(fit, CircleFit) else 0,
+        "left_out": _left_out(fit),
         "directions": ["ccw" if sense > 0 else "cw" for sense in fit.senses] if isinstance(fit, CircleFit) else [],
         "parameters": [_entry(each, say) for each in fit.parameters],
         "lack_of_fit": {"found": bool(fit.lack), "why": say(f"fit.lack-{fit.lack}") if fit.lack else ""},
@@ -69,7 +66,14 @@ def document(file: str, fit: CircleFit | CornerFit, say: Say) -> FitDocument:
     }
 
 
-def document_text(file: str, fit: CircleFit | CornerFit, say: Say) -> str:
+def _left_out(fit: Fit) -> int:
+    """Rows far off, or features that were not used."""
+    if isinstance(fit, CornerFit):
+        return 0
+    return fit.left_out if isinstance(fit, CircleFit) else len(fit.left_out) + len(fit.stepped)
+
+
+def document_text(file: str, fit: Fit, say: Say) -> str:
     """The document as JSON."""
     return json.dumps(document(file, fit, say), ensure_ascii=False, allow_nan=False, indent=2) + "\n"
 

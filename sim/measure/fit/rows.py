@@ -16,6 +16,11 @@ _PLACE_UM: Final = Bound(-1e8, 1e8)
 _COLUMNS: Final = ("x_mm", "y_mm", "x_back_mm", "y_back_mm", "x_um", "y_um", "feature")
 
 
+def is_of_features(path: Path) -> bool:
+    """Whether a file has rows of a test piece. Raises as `read_circle` does for a file that has no rows."""
+    return any(row.text("feature") for row in read_rows(path, _COLUMNS))
+
+
 def read_circle(path: Path, back: Path | None = None) -> Floats:
     """Places (n, 2) µm in the order of time, the way back behind the way there: of further columns, or a further file.
 

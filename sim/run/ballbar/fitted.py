@@ -1,10 +1,11 @@
-"""A machine file whose circular test loses as much motion, and is as far out of square, as a measured circle says.
+"""A machine file whose circular test loses as much motion, and is as far out of square, as was measured.
 
 What friction adds to backlash depends on how the table is shaken by its steps: no formula has it. So the test is run
 with the machine as it is and fitted as the measured circle was. By what the two differ its backlash is set, and so are
 squareness and scales, again and again until they are alike.
 """
 
+import math
 from collections.abc import Iterator, Mapping
 from typing import Final, NamedTuple
 
@@ -12,12 +13,15 @@ import numpy as np
 
 from sim.base.progress import Progress, silent
 from sim.measure.fit.circle import CircleFit, fit_circle
+from sim.measure.fit.piece import PieceFit
 from sim.run.ballbar.circle import circle_test, run_test
 from sim.setup.machine.machine import Machine
 
 ALIKE_UM: Final = 0.05
 """Lost motion that differs by no more is as it was measured."""
 _ROUNDS: Final = 5
+_OF_PIECE_UM: Final = 10_000.0
+"""Radius of the circular test that is to lose as much motion as a piece: that of its disc."""
 _AXES: Final = ("x", "y")
 _SKEWS: Final = ("squareness", "scale_difference")
 
@@ -34,15 +38,17 @@ class FittedMachine(NamedTuple):
 
 
 def fitted_machine(
-    machine: Machine, fit: CircleFit, feed_um_s: float | None, progress: Progress = silent
+    machine: Machine, fit: CircleFit | PieceFit, feed_um_s: float | None, progress: Progress = silent
 ) -> FittedMachine:
     """The machine with lost motion, squareness and scales of a fit. SettingsError for a circle beyond its travel.
+
+    Lost motion is that of a circular test on the measured radius; of a piece on one of `_OF_PIECE_UM`.
 
     Where friction alone loses more than was measured there is no backlash, and less friction. Of an axis of which the
     circle does not tell it, both stay. What is set is assumed no more; backlash and squareness are measured then,
     backlash with the friction and the stiffness that stand in the file.
     """
-    radius_um = float(round(next(each.value for each in fit.parameters if each.value is not None)))
+    radius_um = _radius_um(fit)
     wanted = [fit.value(f"reversal_{name}") for name in _AXES]
     made = machine
     for rounds_left in reversed(range(_ROUNDS + 1)):
@@ -53,6 +59,8 @@ def fitted_machine(
         if (max(map(abs, off)) <= ALIKE_UM and is_alike) or not rounds_left:
             break
         made = _skewed(_with_more(made, off), skew)
+    if fit.value("scale_difference") is not None:
+        made = _scaled(made, fit.value("mean_scale"))
     keys = (*_changed(machine, made, wanted), *_skew_keys(fit))
     assumed = tuple(name for name in machine.assumed if name not in keys)
     measured = {name: within for name, within in machine.measured if name not in keys} | _margins(fit)
@@ -62,6 +70,12 @@ def fitted_machine(
             measured.pop(f"backlash_{name}_um", None)
     made = made._replace(assumed=assumed, measured=tuple(measured.items()))
     return FittedMachine(made, keys, max(map(abs, off)))
+
+
+def _radius_um(fit: CircleFit | PieceFit) -> float:
+    if isinstance(fit, PieceFit):
+        return _OF_PIECE_UM
+    return float(round(next(each.value for each in fit.parameters if each.value is not None)))
 
 
 def _simulated(machine: Machine, radius_um: float, feed_um_s: float | None, progress: Progress) -> CircleFit:
@@ -80,25 +94,37 @@ def _changed(machine: Machine, made: Machine, wanted: list[float | None]) -> Ite
             yield f"friction_{name}_n"
 
 
-def _margins(fit: CircleFit) -> dict[str, float]:
-    """Half the intervals of what a circle tells, by the keys of the machine file.
+def _margins(fit: CircleFit | PieceFit) -> dict[str, float]:
+    """Half the intervals of what was told, by the keys of the machine file.
 
-    Not of the scales: it tells their difference alone.
+    Not of the scales where their difference alone is told, as by a circle.
     """
-    keys = {"reversal_x": "backlash_x_um", "reversal_y": "backlash_y_um", "squareness": "squareness_urad"}
-    found = ((keys.get(each.name), each) for each in fit.parameters)
-    return {
-        key: round(0.5 * (each.most - each.least), 3)
-        for key, each in found
-        if key and each.least is not None and each.most is not None
+    known = {
+        each.name: 0.5 * (each.most - each.least)
+        for each in fit.parameters
+        if each.least is not None and each.most is not None
     }
+    keys = {"reversal_x": "backlash_x_um", "reversal_y": "backlash_y_um", "squareness": "squareness_urad"}
+    found = {key: known[name] for name, key in keys.items() if name in known}
+    if {"mean_scale", "scale_difference"} <= set(known):
+        of_axis = math.hypot(known["mean_scale"], 0.5 * known["scale_difference"])
+        found |= {f"scale_{axis}_ppm": of_axis for axis in _AXES}
+    return {key: round(within, 3) for key, within in found.items()}
+
+
+def _scaled(machine: Machine, mean_ppm: float | None) -> Machine:
+    """The machine with another mean of both scales, where that is told."""
+    geometry = machine.table.geometry
+    more = 0.0 if mean_ppm is None else mean_ppm - 0.5 * sum(geometry.scale_ppm)
+    scales = (geometry.scale_ppm[0] + more, geometry.scale_ppm[1] + more)
+    return machine._replace(table=machine.table._replace(geometry=geometry._replace(scale_ppm=scales)))
 
 
 def _less(wanted: float | None, found: float | None) -> float:
     return 0.0 if wanted is None or found is None else wanted - found
 
 
-def _skew_keys(fit: CircleFit) -> Iterator[str]:
+def _skew_keys(fit: CircleFit | PieceFit) -> Iterator[str]:
     """Names of the keys of what was measured of the axes' directions and scales."""
     if fit.value("squareness") is not None:
         yield "squareness_urad"
@@ -109,7 +135,7 @@ def _skew_keys(fit: CircleFit) -> Iterator[str]:
 def _skewed(machine: Machine, more: Mapping[str, float]) -> Machine:
     """The machine so much more out of square, and with scales so much more apart: half of it in X, half in Y.
 
-    A circle does not tell the mean of both scales from its radius.
+    A circle does not tell the mean of both scales from its radius; what a piece tells of it is set behind.
     """
     geometry = machine.table.geometry
     half = 0.5 * more["scale_difference"]

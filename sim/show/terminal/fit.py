@@ -6,6 +6,7 @@ from typing import Literal
 from parser.findings.catalogue import Language
 from sim.measure.fit.circle import CircleFit, Parameter
 from sim.measure.fit.corner import CornerFit
+from sim.measure.fit.piece import PieceFit
 from sim.show.terminal.layout import paragraph, show, table
 from sim.show.texts import Words
 
@@ -15,6 +16,20 @@ def print_corner(done: CornerFit, language: Language) -> None:
     tell = Words(language)
     _print_parameters("title-corner", done.parameters, tell)
     paragraph(tell("fit.of-corner", places=f"{done.places:,}", rest=f"{done.residual_um:.3g}"))
+    if done.lack:
+        paragraph(tell("fit.lack", why=tell(f"fit.lack-{done.lack}")), "yellow")
+
+
+def print_piece(done: PieceFit, language: Language) -> None:
+    """Print what a piece tells to stdout."""
+    tell = Words(language)
+    _print_parameters("title-piece", done.parameters, tell)
+    values = {"sizes": f"{done.sizes:,}", "places": f"{done.places:,}", "rest": f"{done.residual_um:.3g}"}
+    paragraph(tell("fit.of-piece", **values))
+    if done.left_out:
+        paragraph(tell("fit.features-left-out", names=", ".join(done.left_out)), "cyan")
+    if done.stepped:
+        paragraph(tell("fit.features-stepped", names=", ".join(done.stepped)), "cyan")
     if done.lack:
         paragraph(tell("fit.lack", why=tell(f"fit.lack-{done.lack}")), "yellow")
 

@@ -41,7 +41,7 @@ def test_the_piece_is_made_by_program(tmp_path: Path) -> None:
     done = run_inside("program", tmp_path / "piece" / "piece.dxf", "-o", tmp_path / "piece.3b", "--json")
     found = json.loads(done.stdout)
     assert found["proof"]["verdict"] == "pass"
-    assert len(found["figures"]) == 7
+    assert len(found["figures"]) == 9
     assert run_inside("accept", "--piece", tmp_path / "piece").returncode == 2  # it stands there
 
 

@@ -77,6 +77,38 @@ def test_a_corner_tells_the_lag_of_the_wire(tmp_path: Path) -> None:
     assert (refused.returncode, b"--feed" in refused.stderr) == (2, True)
 
 
+def test_a_piece_tells_and_makes_a_machine_file(tmp_path: Path) -> None:
+    """Sizes without noise of a machine that loses 8 and 6 µm and cuts 1 µm outside of each contour, by arithmetic."""
+    rows = ["feature,x_mm,y_mm"]
+    sizes = {f"octagon-{at}": (20.0, at) for at in (0, 45, 90, 135)}
+    sizes |= {"square-0": (10.0, 0), "square-90": (10.0, 90), "plate-0": (60.0, 0), "plate-90": (14.0, 90)}
+    sizes |= {"slot-1": (1.0, 0), "slot-2": (2.0, 0), "slot-5": (5.0, 0)}
+    for name, (size, across) in sizes.items():
+        lost = {0: 0.008, 90: 0.006}.get(across, 0.0)
+        half = 0.5 * (size + (-0.002 if name.startswith("slot") else 0.002) - lost)
+        normal = np.array([np.cos(np.radians(across)), np.sin(np.radians(across))])
+        for by in np.linspace(-0.4, 0.4, 5):
+            for sign in (-1.0, 1.0):
+                x, y = sign * half * normal + by * np.array([-normal[1], normal[0]])
+                rows.append(f"{name},{x:.6f},{y:.6f}")
+    (tmp_path / "piece.csv").write_text("\n".join(rows))
+    mine = tmp_path / "mine.toml"
+    done = run_inside("fit", tmp_path / "piece.csv", "--machine", "dk7740", "--feed", "60mm/min", "-o", mine, "--json")
+    found = json.loads(done.stdout)
+    SCHEMA.validate(found)
+    values = {each["name"]: each["value"] for each in found["parameters"]}
+    wanted = {"edge_um": 1.0, "reversal_x_um": 8.0, "reversal_y_um": 6.0, "mean_scale_ppm": 0.0}
+    assert {name: values[name] for name in wanted} == pytest.approx(wanted, abs=0.05)
+    assert "reversal_x" in mine.read_text("utf-8")
+    assert load_machine(str(mine)).table.backlash_um[0] > load_machine("dk7740").table.backlash_um[0]
+    assert "试件" in run_inside("fit", tmp_path / "piece.csv", "--lang", "zh").stdout.decode()
+    (tmp_path / "circle.csv").write_text("x_mm,y_mm\n1,2\n")
+    for options in (("--limits", mine), ("--back", tmp_path / "circle.csv")):
+        file = "piece.csv" if options[0] == "--back" else "circle.csv"
+        refused = run_inside("fit", tmp_path / file, *options)
+        assert (refused.returncode, options[0].encode() in refused.stderr) == (2, True)
+
+
 def test_without_a_machine_both_circles_are_taken_for_one_of_the_usual_machine(machine: Path) -> None:
     trace, mine = machine.parent / "trace.csv", machine.parent / "mine.toml"
     run_inside("ballbar", *TEST, "--machine", machine, "--trace", trace)

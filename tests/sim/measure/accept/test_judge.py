@@ -8,7 +8,7 @@ import pytest
 from depth import cases
 
 from parser.findings.errors import SettingsError
-from sim.make.piece import piece_limits
+from sim.make.piece import piece_limits_text
 from sim.measure.accept.features import circle_size, width_size
 from sim.measure.accept.judge import Judgement, Places, judged, read_piece, verdict_of
 from sim.setup.limits import FeatureLimits, Limits, load_limits
@@ -86,7 +86,10 @@ def piece(folder: Path, outer_um: float, inner_um: float, bow_um: float = 0.0, x
     rows = ["feature;x_mm;y_mm;z_mm"]
     sizes = [(f"octagon-{at}", 20e3, at, outer_um) for at in (0, 45, 90, 135)]
     sizes += [(f"square-{at}", 10e3, at, outer_um) for at in (0, 90)]
+    sizes += [("plate-0", 60e3, 0, outer_um), ("plate-90", 14e3, 90, outer_um)]
+    sizes += [(f"rhomb-{at}", 6e3, at, outer_um) for at in (90, 120)]
     sizes += [(f"slot-{at}", 1e3 * at, 0, inner_um) for at in (1, 2, 5)]
+    sizes += [(f"rhomb-hole-{at}", 5e3, at, inner_um) for at in (90, 120)]
     for name, size, across, off in sizes:
         for z in (0, 20, 40):
             more = off + bow_um * (z == 20) + x_more_um * (across == 0)
@@ -94,14 +97,14 @@ def piece(folder: Path, outer_um: float, inner_um: float, bow_um: float = 0.0, x
                 rows.append(f"{name};{x:.5f};{y:.5f};{z}".replace(".", ","))
     rows += [f"disc;{x:.5f};{y:.5f};0".replace(".", ",") for x, y in disc(1e4 + 0.5 * outer_um, 0.2, chance) / 1e3]
     (folder / "m.csv").write_text("\n".join(rows))
-    (folder / "limits.toml").write_text(piece_limits())
+    (folder / "limits.toml").write_text(piece_limits_text())
     return judged(read_piece(folder / "m.csv"), load_limits(folder / "limits.toml"))
 
 
 def test_an_offset_too_large_explains_outer_and_inner_sizes(tmp_path: Path) -> None:
     found = piece(tmp_path, 6.0, -6.0)
     assert found.verdict == "pass"
-    assert len(found.judged) == 9 * 3 + 2
+    assert len(found.judged) == 15 * 3 + 2
     (cause,) = found.causes
     assert cause.name == "offset"
     assert cause.value_um == pytest.approx(3.0, abs=0.1)
@@ -120,7 +123,7 @@ def test_a_bow_and_an_axis_are_told(tmp_path: Path) -> None:
 def test_what_is_missing_makes_a_piece_incomplete(tmp_path: Path) -> None:
     piece(tmp_path, 0.0, 0.0)
     text = (tmp_path / "m.csv").read_text().splitlines()
-    rows = [row for row in text if not row.startswith("disc")] + ["else;1;2;3"]
+    rows = [row for row in text if not row.startswith("disc")] + ["else;1;2;3", "corner-150;1;2;3"]
     (tmp_path / "m.csv").write_text("\n".join(rows))
     found = judged(read_piece(tmp_path / "m.csv"), load_limits(tmp_path / "limits.toml"))
     assert (found.verdict, found.missing, found.without_limits) == ("incomplete", ("disc",), ("else",))
