@@ -13,6 +13,10 @@ from sim.setup.toml.reader import Bound
 WIRE_DIAMETER_MM = Bound(0.01, 1.0)
 SPARK_GAP_MM = Bound(-0.05, 0.5)
 WIRE_LAG_UM = Bound(0.0, 1000.0)
+USUAL_LAG_UM = 10.0, 50.0
+"""How far wires usually hang behind their guides in the work (docs/program.md)."""
+CUT_OFF_OF_90 = 0.482
+"""Of the lag, by which a wire cuts a corner of 90° off, by the law of `sim.cut.wire_lag`: 19.3 µm of 40."""
 
 
 class WireForces(NamedTuple):

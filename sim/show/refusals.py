@@ -13,6 +13,7 @@ from sim.run.dryrun import DryRun, assumptions_of
 from sim.setup.key_words import words_of
 from sim.setup.machine.machine import SECTIONS, MeasuredValue
 from sim.setup.toml.keys import Key, Section
+from sim.setup.wire import CUT_OFF_OF_90, USUAL_LAG_UM
 from sim.show.texts import bilingual
 from sim.show.texts.phrases import as_read, listed, machine_name, same
 
@@ -61,6 +62,12 @@ def _figure(section: Section, key: Key, measured: MeasuredValue) -> Bilingual:
     return Bilingual(f"{name.en} {figure}", f"{name.zh} {figure}")
 
 
+def _usual_lag() -> dict[str, float]:
+    """What wires usually lag, and by how much that cuts a corner of 90° off, µm."""
+    least, most = USUAL_LAG_UM
+    return {"least": least, "most": most, "least_cut": CUT_OFF_OF_90 * least, "most_cut": CUT_OFF_OF_90 * most}
+
+
 def taken_for_granted(run: DryRun) -> list[Bilingual]:
     """A sentence for each: how the program was read, the machine, and what nobody has measured or looked at."""
     found = assumptions_of(run)
@@ -74,5 +81,5 @@ def taken_for_granted(run: DryRun) -> list[Bilingual]:
     if not found.compared:
         lines.append(bilingual("assumptions.no-drawing"))
     if not found.wire_bows:
-        lines.append(bilingual("assumptions.straight"))
+        lines.append(bilingual("assumptions.straight", **_usual_lag()))
     return lines

@@ -18,7 +18,7 @@ from parser.geometry.curves import CurveKind
 from parser.toolpath import Toolpath
 from sim.cut.wire_lag import bowed
 from sim.setup.scenario import load_scenario
-from sim.setup.wire import DEFAULT_WIRE, Wire, WireForces, read_wire
+from sim.setup.wire import CUT_OFF_OF_90, DEFAULT_WIRE, Wire, WireForces, read_wire
 from sim.table.trace import Trace
 
 LINE = Pen(0.0, 0.0).to(1.0, 0.0).path()
@@ -259,5 +259,13 @@ def test_a_scenario_with_a_wire_lag_cuts_its_corners_off(tmp_path: Path) -> None
     # Without play: the table's own lag at the corner would count to the table, not to the wire.
     free = machine(friction_n=(0.0, 0.0), viscous_n_s_mm=(0.0, 0.0), backlash_um=(0.0, 0.0))
     run = run_text("B2000B0B2000GXL1 B0B2000B2000GYL2 DD", wire=case.wire, machine=free)
-    assert run.deviations.wire.max_um == pytest.approx(0.4825 * 40.0, abs=1.0)  # µm, and a step
-    assert run.deviations.by_cause.wire.max_um == pytest.approx(0.4825 * 40.0, abs=1.0)
+    assert run.deviations.wire.max_um == pytest.approx(CUT_OFF_OF_90 * 40.0, abs=1.0)  # µm, and a step
+    assert run.deviations.by_cause.wire.max_um == pytest.approx(CUT_OFF_OF_90 * 40.0, abs=1.0)
+
+
+def test_what_a_run_without_lag_says_of_a_right_angle_is_what_the_law_has() -> None:
+    """The most that the wire is off both ways, the guides s lags past the corner: s − cos φ along, sin φ aside."""
+    past = np.linspace(0.0, 3.0, 30_001)
+    angle = 2.0 * np.arctan(np.exp(-past))
+    off = np.minimum(past - np.cos(angle), np.sin(angle))
+    assert off.max() == pytest.approx(CUT_OFF_OF_90, abs=5e-4)
