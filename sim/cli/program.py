@@ -131,9 +131,19 @@ def _program_request(path: Path, output: Path | None, options: Options, *, is_wr
 
 def _scenario(path: Path, output: Path | None, options: Options) -> "Scenario":
     """The scenario of a folder, else one of the defaults, with the options in place of its own values."""
+    from parser.findings.errors import SettingsError
     from sim.cli.scenario_options import Overrides, overridden
+    from sim.setup.wire import SPARK_GAP
 
-    given = Overrides(dialect=options.dialect, unit=options.unit, machine=options.machine, settings=options.proof)
+    if options.technology is not None and SPARK_GAP.name in options.proof:
+        raise SettingsError("technology-tells-gap", where=options.technology.name, key="--spark-gap")
+    given = Overrides(
+        dialect=options.dialect,
+        unit=options.unit,
+        machine=options.machine,
+        technology=options.technology,
+        settings=options.proof,
+    )
     return overridden(path if path.is_dir() else (output or path.with_suffix(".3b")), given)
 
 

@@ -9,9 +9,9 @@ import click
 
 from parser.findings.errors import Message
 from sim.cli.options import WRITTEN_IN, Length, length_um, setting_options, taken_settings, with_options
-from sim.cli.spoken.values import offer_machines
+from sim.cli.spoken.values import FilePath, offer_machines
 from sim.setup.making import PROGRAM, SIDE_WISHES, Language
-from sim.setup.part import GAP, LAYER, THICKNESS, TOLERANCE, UNIT
+from sim.setup.part import GAP, LAYER, MATERIAL, THICKNESS, TOLERANCE, UNIT
 from sim.setup.toml.keys import Key
 from sim.setup.wire import DIAMETER, SPARK_GAP
 
@@ -48,7 +48,7 @@ def _is_rank(text: str | None) -> bool:
     return text is None or (text.removeprefix("-").isdecimal() and text.isascii() and abs(int(text[:6])) <= 1000)
 
 
-OF_PROOF: Final = (THICKNESS, DIAMETER, replace(SPARK_GAP, option="--spark-gap"))
+OF_PROOF: Final = (MATERIAL, THICKNESS, DIAMETER, replace(SPARK_GAP, option="--spark-gap"))
 """Settings of the run that proves a program; ``--gap`` is the gap in a drawing here."""
 OF_DRAWING: Final = (LAYER, UNIT, replace(TOLERANCE, name="part_tolerance_um", option="--part-tolerance"), GAP)
 """How the drawing is read, and how far the part may be off it; ``--tolerance`` is that of the path."""
@@ -65,6 +65,7 @@ OPTIONS = (
     *WRITTEN_IN,
     *setting_options(_OF_WRITING),
     click.option("--machine", metavar="NAME|FILE", shell_complete=offer_machines),
+    click.option("--technology", type=FilePath(path_type=Path, dir_okay=False), metavar="FILE.toml"),
     *setting_options(OF_PROOF),
 )
 
@@ -87,6 +88,7 @@ class Options(NamedTuple):
     dialect: str | None
     unit: str | None
     machine: str | None
+    technology: Path | None
     making: Mapping[str, Any]
     writing: Mapping[str, Any]
     drawing: Mapping[str, Any]

@@ -319,10 +319,15 @@ class AsRun(NamedTuple):
 
 def least_um(figure: Figure, making: Making, reach_um: float) -> float:
     """The least offset that is asked for a figure: that of the pass that makes its edge."""
+    return min(_passes_um(figure, making, reach_um))
+
+
+def _passes_um(figure: Figure, making: Making, reach_um: float) -> tuple[float, ...]:
+    """The offsets that are asked for a figure."""
     wishes = [
         layer.passes_um for layer in making.layers if layer.layer.lower() == figure.layer.lower() and layer.passes_um
     ]
-    return min((wishes[0] if wishes else making.passes_um) or (reach_um,))
+    return (wishes[0] if wishes else making.passes_um) or (reach_um,)
 
 
 def as_run(scenario: Scenario, plan: CutPlan, toolpath: Toolpath) -> AsRun:
@@ -341,6 +346,7 @@ def as_run(scenario: Scenario, plan: CutPlan, toolpath: Toolpath) -> AsRun:
     if wire is None:
         return AsRun(replace(for_proof, kerf=False), edge_um, (), (Remark("no-wire", {"offset": least}),))
     notes = (*_run_remarks(for_proof.wire, wire), *_lag_remarks(scenario, plan.making.lag_um))
+    notes = (*notes, *_technology_remarks(scenario, plan))
     if plan.is_added:
         side = plan.cuts[0].side
         for_proof = replace(for_proof, offset=Offset((OffsetPass(least),), side))
@@ -381,6 +387,22 @@ def _lag_remarks(scenario: Scenario, lag_um: float) -> tuple[Remark, ...]:
         return ()
     name = "lag-middle" if scenario.wire.face_share(scenario.thickness_mm) is None else "lag"
     return (Remark(name, {"lag": lag_um}),)
+
+
+def _technology_remarks(scenario: Scenario, plan: CutPlan) -> tuple[Remark, ...]:
+    """That a last pass leaves the edge off its contour, by what the technology knows of it; the worst of them alone."""
+    if scenario.technology is None:
+        return ()
+    of_figures = {_passes_um(cut.figure, plan.making, scenario.wire.reach_um) for cut in plan.cuts}
+    found = []
+    for passes_um in sorted(of_figures):
+        gap = scenario.technology_of(len(passes_um)).gap_um
+        radius_um, offset_um = scenario.wire.radius_um, passes_um[-1]
+        if not gap.least <= offset_um - radius_um <= gap.most:
+            values = {"least": radius_um + gap.least, "most": radius_um + gap.most, "offset": offset_um}
+            off_um = offset_um - radius_um - gap.value
+            found.append((abs(off_um), Remark("technology", {**values, "number": len(passes_um), "off": off_um})))
+    return (max(found, key=lambda each: each[0])[1],) if found else ()
 
 
 def _run_remarks(usual: Wire, wire: Wire) -> tuple[Remark, ...]:

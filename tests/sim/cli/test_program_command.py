@@ -237,3 +237,33 @@ def test_options_go_before_the_section(shop: Path) -> None:
     code, said, _ = run(shop, "--preview", "--offset", "0.12mm")
     assert code == 0
     assert "passes: offset 0.12 mm" in said
+
+
+TECHNOLOGY = """
+[technology]
+name = "Cr12"
+grade = "measured"
+[[cut]]
+material = "Cr12"
+wire_mm = 0.18
+height_mm = 40
+gap_um = 14
+gap_within_um = 2
+"""
+
+
+def test_a_technology_gives_the_offset_and_says_where_another_one_does_not_fit(part: Path) -> None:
+    """Half of 180 µm and 14 are 104: an offset of 110 leaves each edge 6 µm outside of its contour."""
+    technology = part.with_name("cr12.toml")
+    technology.write_text(TECHNOLOGY)
+    options = (part, "--preview", "--technology", technology)
+    code, said, _ = run(*options)
+    assert (code, "offset 0.104 mm" in said, "outside of its contour" in said) == (0, True, False)
+    code, said, _ = run(*options, "--offset", "0.11mm")
+    words = " ".join(said.split())
+    assert code == 0
+    assert "pass 1 reaches 102 to 106 µm by the technology, and the offset is 110 µm" in words
+    assert "+6 µm outside of its contour" in words
+    for more, why in ((("--spark-gap", "10um"), "--spark-gap"), (("--material", "Al"), "Al")):
+        code, _, error = run(*options, *more)
+        assert (code, why in error) == (2, True)
