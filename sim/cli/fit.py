@@ -1,8 +1,8 @@
 """``drycut fit``."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import click
 
@@ -13,8 +13,10 @@ from sim.cli.spoken.values import FilePath, offer_machines
 
 if TYPE_CHECKING:
     from sim.measure.fit.circle import CircleFit
+    from sim.measure.fit.corner import CornerFit
     from sim.measure.fit.piece import PieceFit
     from sim.setup.machine.machine import Machine
+    from sim.show.draw.style import ThemeName
 
 _USUAL = "dk7740"
 
@@ -27,6 +29,8 @@ _USUAL = "dk7740"
 @click.option("--feed", type=Speed())
 @click.option("--machine", metavar="NAME|FILE", shell_complete=offer_machines)
 @click.option("-o", "--output", type=FilePath(path_type=Path), metavar="FILE.toml")
+@click.option("--picture", type=FilePath(path_type=Path, dir_okay=False), metavar="FILE")
+@click.option("--theme", type=click.Choice(["light", "dark"]), default="light", show_default=True)
 @click.option("--json", "as_json", is_flag=True)
 def fit(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     file: Path,
@@ -36,6 +40,8 @@ def fit(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     feed: float | None,
     machine: str | None,
     output: Path | None,
+    picture: Path | None,
+    theme: "ThemeName",
     as_json: bool,
 ) -> None:
     """Tell what a measured circle or piece says of a machine, or a corner of the wire.
@@ -43,7 +49,7 @@ def fit(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     \b
     drycut fit circle.csv --feed 500mm/min --machine mine.toml
     drycut fit ccw.csv --back cw.csv -o mine.toml
-    drycut fit corner.csv --corner
+    drycut fit corner.csv --corner --picture corner.png
     drycut fit piece.csv --machine dk7740 -o mine.toml
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     from parser.text.encoding import printable
@@ -55,9 +61,12 @@ def fit(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     from sim.show.terminal.printer import write
 
     others = {"--back": back, "--feed": feed, "--machine": machine, "-o": output, "--limits": limits}
+    if picture is not None:
+        _refuse_picture(picture, (file, output))
+    drawn = _Picture(picture, theme)
     if corner:
         _refuse(others, "not-with-corner")
-        _tell_corner(file, as_json=as_json)
+        _tell_corner(file, drawn, as_json=as_json)
         return
     if output is not None and output.suffix.lower() != ".toml":
         raise click.BadParameter(Message("machine-is-toml", output=output), param_hint="-o")
@@ -67,11 +76,12 @@ def fit(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
         _refuse({"--back": back}, "not-of-a-piece")
         of_piece = _piece(file, limits)
         off_um = 0.0 if output is None else _write(of_piece, load_machine(machine or _USUAL), feed, output)
+        drawn.draw(of_piece, file)
         if as_json:
             write(document_text(printable(str(file)), of_piece, words()), "json")
         else:
             print_piece(of_piece, spoken())
-            _tell_written(output, off_um)
+            _tell_written((output, picture), off_um)
         return
     _refuse({"--limits": limits}, "limits-of-a-piece")
     # A machine file begins somewhere, and its own circle is fitted as the measured one was.
@@ -79,11 +89,41 @@ def fit(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     by_points = base is not None and base.controller.interpolation == "point-by-point"
     done = fit_circle(read_circle(file, back), feed, by_points=by_points)
     off_um = 0.0 if base is None or output is None else _write(done, base, feed, output)
+    drawn.draw(done, file)
     if as_json:
         write(document_text(printable(str(file)), done, words()), "json")
     else:
         print_fit(done, spoken(), "" if machine is not None else "unknown" if base is None else "usual")
-        _tell_written(output, off_um)
+        _tell_written((output, picture), off_um)
+
+
+class _Picture(NamedTuple):
+    """The picture of the fit as it is asked for; no file where none is."""
+
+    file: Path | None
+    theme: "ThemeName"
+
+    def draw(self, fit: "CircleFit | CornerFit | PieceFit", measured: Path) -> None:
+        """Write it, if it is asked for."""
+        if self.file is None:
+            return
+        from parser.text.encoding import printable
+        from sim.show.draw.sheet import SIZES_PX
+        from sim.show.pictures.files import PictureFiles, write_pictures
+        from sim.show.pictures.fit import FIT, FitSubject
+
+        subject = FitSubject(fit, printable(measured.name))
+        files = PictureFiles(self.file.parent, {FIT: self.file.name})
+        write_pictures(subject, files, SIZES_PX["screen"], self.theme, spoken())
+
+
+def _refuse_picture(picture: Path, others: Iterable[Path | None]) -> None:
+    """BadParameter for a picture of another kind, or in the place of another file of the command."""
+    if picture.suffix.lower() not in {".png", ".svg"}:
+        raise click.BadParameter(Message("neither-png-nor-svg", picture=picture), param_hint="--picture")
+    for other in others:
+        if other is not None and picture.resolve() == other.resolve():
+            raise click.BadParameter(Message("written-over", file=picture), param_hint="--picture")
 
 
 def _refuse(options: Mapping[str, object], why: str) -> None:
@@ -93,15 +133,16 @@ def _refuse(options: Mapping[str, object], why: str) -> None:
             raise click.BadParameter(Message(why), param_hint=option)
 
 
-def _tell_written(output: Path | None, off_um: float) -> None:
-    """Which machine file was written, and by how much it is still off."""
+def _tell_written(written: Sequence[Path | None], off_um: float = 0.0) -> None:
+    """Which files were written, and by how much the machine file is still off."""
     from sim.show.terminal.layout import paragraph
     from sim.show.terminal.printer import say
 
     if off_um:
         paragraph(words()("fit.still-off", off=f"{off_um:.2f}"), "yellow")
-    if output is not None:
-        say(words()("commands.written", names=str(output)))
+    names = [str(file) for file in written if file is not None]
+    if names:
+        say(words()("commands.written", names=", ".join(names)))
 
 
 def _piece(file: Path, limits: Path | None) -> "PieceFit":
@@ -114,7 +155,7 @@ def _piece(file: Path, limits: Path | None) -> "PieceFit":
     return fit_piece(read_piece(file), load_limits(limits) if limits is not None else piece_limits())
 
 
-def _tell_corner(file: Path, *, as_json: bool) -> None:
+def _tell_corner(file: Path, picture: _Picture, *, as_json: bool) -> None:
     """What a measured corner says of the wire."""
     from parser.text.encoding import printable
     from sim.measure.fit.corner import fit_corner
@@ -124,10 +165,12 @@ def _tell_corner(file: Path, *, as_json: bool) -> None:
     from sim.show.terminal.printer import write
 
     of_corner = fit_corner(read_circle(file))
+    picture.draw(of_corner, file)
     if as_json:
         write(document_text(printable(str(file)), of_corner, words()), "json")
     else:
         print_corner(of_corner, spoken())
+        _tell_written((picture.file,))
 
 
 def _write(done: "CircleFit | PieceFit", base: "Machine", feed_um_s: float | None, output: Path) -> float:

@@ -27,9 +27,9 @@ from controller.stepping.chunks import chunk_of
 from controller.stepping.steps import interpolate_words, stepped_words
 from parser.findings.errors import SettingsError
 from parser.geometry.curves import Bools, Floats, Ints, curves_between
+from sim.measure.fit.parameters import LEVEL, FittedRows, Parameter
 from sim.measure.statistics import algebraic_circle, explained, student
 
-LEVEL: Final = 0.95
 LEAST_PLACES: Final = 24
 _AT_REVERSAL_RAD: Final = math.radians(2.0)
 """So near to a reversal an axis is still taking up its lost motion."""
@@ -44,32 +44,6 @@ _MOST_TURNS_BACK: Final = 12
 _CELLS: Final = 1440
 _STEPPED_UM: Final = 0.5
 """How far lost motion may be off where steps of 1 µm make it: 0.3 µm beside `drycut ballbar` on shipped machines."""
-
-
-class Parameter(NamedTuple):
-    """What a circle tells of a machine.
-
-    Attributes
-    ----------
-    name, unit
-        Of its text for people, ``fit.name-…``, and its unit.
-    value, least, most
-        With its interval; None where it is not determined.
-    why
-        Why not: name of a text ``fit.why-…``; empty where it is.
-    """
-
-    name: str
-    unit: str
-    value: float | None = None
-    least: float | None = None
-    most: float | None = None
-    why: str = ""
-
-    @property
-    def is_determined(self) -> bool:
-        """Whether the circle tells it."""
-        return not self.why
 
 
 class CircleFit(NamedTuple):
@@ -87,6 +61,8 @@ class CircleFit(NamedTuple):
         How many rows were fitted, and how many lie far off.
     senses
         Directions that were run: 1 counter-clockwise, −1 clockwise.
+    rows
+        What it is of.
     """
 
     parameters: tuple[Parameter, ...]
@@ -95,6 +71,7 @@ class CircleFit(NamedTuple):
     places: int
     left_out: int
     senses: tuple[int, ...]
+    rows: FittedRows
 
     def value(self, name: str) -> float | None:
         """The value of a parameter; None where it is not determined."""
@@ -141,6 +118,7 @@ def fit_circle(place_um: Floats, feed_um_s: float | None = None, *, by_points: b
         places=int(is_used.sum()),
         left_out=int((_off_reversals(angle) & ~is_used).sum()),
         senses=tuple(each for each in (1, -1) if (sense == each).any()),
+        rows=FittedRows(np.degrees(np.mod(angle, 2.0 * np.pi)), off, design.columns @ solved, sense < 0.0, is_used),
     )
 
 

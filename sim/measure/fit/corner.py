@@ -18,7 +18,8 @@ import numpy as np
 
 from parser.findings.errors import SettingsError
 from parser.geometry.curves import Floats
-from sim.measure.fit.circle import LEVEL, Parameter, has_few_runs
+from sim.measure.fit.circle import has_few_runs
+from sim.measure.fit.parameters import LEVEL, FittedRows, Parameter
 from sim.measure.statistics import student
 
 LEAST_PLACES: Final = 20
@@ -49,12 +50,15 @@ class CornerFit(NamedTuple):
         How many rows were fitted.
     lack
         What speaks against the model: name of a text ``fit.lack-…``; empty where nothing does.
+    rows
+        What it is of: how far places lie from the faces, or where these would meet, along the way from there.
     """
 
     parameters: tuple[Parameter, ...]
     residual_um: float
     places: int
-    lack: str = ""
+    lack: str
+    rows: FittedRows
 
 
 class _Solved(NamedTuple):
@@ -89,7 +93,19 @@ def fit_corner(place_um: Floats) -> CornerFit:
     ]
     residual_um = float(np.sqrt(np.mean(solved.left_um**2)))
     ordered = solved.left_um if solved.is_ahead else solved.left_um[::-1]
-    return CornerFit(tuple(found), residual_um, len(place_um), "runs" if has_few_runs(ordered) else "")
+    lack = "runs" if has_few_runs(ordered) else ""
+    return CornerFit(tuple(found), residual_um, len(place_um), lack, _rows(place_um, solved))
+
+
+def _rows(place_um: Floats, solved: _Solved) -> FittedRows:
+    """Rows in the order in which the wire ran, beside the two faces without their corner."""
+    places = place_um if solved.is_ahead else place_um[::-1]
+    seen, turn = _from_corner(solved.values, places)
+    off_um = _off(seen, corner_edge(turn, 0.0, 0.0))
+    way = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(places, axis=0).T))])
+    at = way - way[int(np.argmin(np.hypot(*seen.T)))]
+    none = np.zeros(len(places), dtype=np.bool_)
+    return FittedRows(at, off_um, off_um - solved.left_um, none, ~none)
 
 
 def _solved(place_um: Floats, is_ahead: bool) -> _Solved:
@@ -154,17 +170,21 @@ def _slope(values: Floats, places: Floats) -> Floats:
 
 def _residuals(values: Floats, places: Floats) -> Floats:
     """(n,) how far places lie from the edge: the corner's place, directions of both faces away from it, reach, lag."""
-    x, y, away_one, away_two = values[:4].tolist()
     reach, lag = (abs(value) for value in values[4:].tolist())
+    seen, turn = _from_corner(values, places)
+    return _off(seen, corner_edge(turn, reach, lag))
+
+
+def _from_corner(values: Floats, places: Floats) -> tuple[Floats, float]:
+    """Places (n, 2) from where both faces would meet, the new way along X; and the turn of the corner."""
+    x, y, away_one, away_two = values[:4].tolist()
     inner = math.remainder(away_one - away_two, 2.0 * math.pi)
     turn = math.pi - abs(inner)
     along = np.array([math.cos(away_two), math.sin(away_two)])
     # The new way along X; the way before comes from below.
     across = np.array([along[1], -along[0]]) * math.copysign(1.0, -inner)
     out = places - np.array([x, y])
-    seen = np.column_stack([out @ along, -(out @ across)])
-    edge = corner_edge(turn, reach, lag)
-    return _off(seen, edge)
+    return np.column_stack([out @ along, -(out @ across)]), turn
 
 
 def corner_edge(turn_rad: float, reach_um: float, lag_um: float) -> Floats:

@@ -6,8 +6,9 @@ from typing import Annotated, Literal, TypedDict
 from parser import __version__
 from parser.documents import Count, Document, Size, Text, Version, one_of
 from sim.measure.accept.model import Say
-from sim.measure.fit.circle import CircleFit, Parameter
+from sim.measure.fit.circle import CircleFit
 from sim.measure.fit.corner import CornerFit
+from sim.measure.fit.parameters import Parameter
 from sim.measure.fit.piece import PieceFit
 
 _DIGITS = 6

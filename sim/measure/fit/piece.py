@@ -28,8 +28,8 @@ from parser.geometry.curves import Floats
 from parser.units import UM_PER_MM
 from sim.measure.accept.features import LEAST_PLACES, Size, circle_size, width_size
 from sim.measure.accept.judge import CORNER, Places
-from sim.measure.fit.circle import LEVEL, Parameter
 from sim.measure.fit.corner import fit_corner
+from sim.measure.fit.parameters import LEVEL, FittedRows, Parameter
 from sim.measure.statistics import explained, student
 from sim.setup.limits import FeatureLimits, Limits
 
@@ -59,6 +59,8 @@ class PieceFit(NamedTuple):
         How many rows were fitted, and how many sizes they came to.
     left_out, stepped
         Names of features that were not used, and of those that were not since their faces have a step.
+    names, rows, within_um
+        Of each size (n,) the name of its feature, what it is off, and half of its interval.
     """
 
     parameters: tuple[Parameter, ...]
@@ -68,6 +70,9 @@ class PieceFit(NamedTuple):
     sizes: int
     left_out: tuple[str, ...]
     stepped: tuple[str, ...]
+    names: tuple[str, ...]
+    rows: FittedRows
+    within_um: Floats
 
     def value(self, name: str) -> float | None:
         """The value of a parameter; None where it is not determined."""
@@ -119,7 +124,15 @@ def fit_piece(piece: Mapping[str, Places], limits: Limits) -> PieceFit:
         sizes=len(measured),
         left_out=tuple(name for name in piece if name not in known and not name.startswith(CORNER)),
         stepped=tuple(each.feature.name for each in every if each not in measured),
+        names=tuple(each.feature.name for each in measured),
+        rows=_rows(off_um, off_um - solved.left_um),
+        within_um=student(0.5 * (1.0 + LEVEL), free) * error_um,
     )
+
+
+def _rows(off_um: Floats, model_um: Floats) -> FittedRows:
+    none = np.zeros(len(off_um), dtype=np.bool_)
+    return FittedRows(np.arange(len(off_um), dtype=np.float64), off_um, model_um, none, ~none)
 
 
 def _measured(feature: FeatureLimits, piece: Mapping[str, Places]) -> _Measured | None:

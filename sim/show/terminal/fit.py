@@ -4,8 +4,9 @@ from collections.abc import Iterable
 from typing import Literal
 
 from parser.findings.catalogue import Language
-from sim.measure.fit.circle import CircleFit, Parameter
+from sim.measure.fit.circle import CircleFit
 from sim.measure.fit.corner import CornerFit
+from sim.measure.fit.parameters import Parameter
 from sim.measure.fit.piece import PieceFit
 from sim.show.terminal.layout import paragraph, show, table
 from sim.show.texts import Words

@@ -109,6 +109,18 @@ def test_a_piece_tells_and_makes_a_machine_file(tmp_path: Path) -> None:
         assert (refused.returncode, options[0].encode() in refused.stderr) == (2, True)
 
 
+@pytest.mark.parametrize("suffix", [".png", ".svg"])
+def test_a_picture_is_drawn_beside_the_table(machine: Path, suffix: str) -> None:
+    trace, picture = machine.parent / "trace.csv", machine.parent / f"fit{suffix}"
+    run_inside("ballbar", *TEST, "--machine", machine, "--trace", trace)
+    done = run_inside("fit", trace, "--picture", picture, "--lang", "zh")
+    assert (done.returncode, picture.exists(), picture.name in done.stdout.decode()) == (0, True, True)
+    assert suffix == ".png" or "模型" in picture.read_text("utf-8")
+    for bad in (trace, machine.parent / "x.gif"):
+        refused = run_inside("fit", trace, "--picture", bad)
+        assert (refused.returncode, b"--picture" in refused.stderr) == (2, True)
+
+
 def test_without_a_machine_both_circles_are_taken_for_one_of_the_usual_machine(machine: Path) -> None:
     trace, mine = machine.parent / "trace.csv", machine.parent / "mine.toml"
     run_inside("ballbar", *TEST, "--machine", machine, "--trace", trace)
