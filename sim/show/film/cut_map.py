@@ -32,12 +32,17 @@ class Discs(NamedTuple):
     centers
         (k, 2) float64, px of the page.
     radius
-        Half the width of the kerf, px.
+        (k,) float64, half the width of the kerf there, px.
     """
 
     t_s: Floats
     centers: Floats
-    radius: float
+    radius: Floats
+
+    @property
+    def widest(self) -> float:
+        """The largest radius; 0 where nothing is cut."""
+        return float(self.radius.max(initial=0.0))
 
 
 class Span(NamedTuple):
@@ -59,18 +64,19 @@ class Span(NamedTuple):
         return Span(*(min(pair) for pair in lows), *(max(pair) for pair in highs))
 
 
-def discs_of(trace: Trace, is_jump: Bools, view: View, plot: Box, radius: float) -> Discs:
-    """Discs of the cut that show in a plot; `is_jump` (n,) by row, `radius` in px."""
+def discs_of(trace: Trace, is_jump: Bools, view: View, plot: Box, radius: Floats) -> Discs:
+    """Discs of the cut that show in a plot; `is_jump` (n,) and `radius` (n,) px by row."""
     way = view.to_px(trace.wire_um)
     travel = total_before(np.hypot(*np.diff(way, axis=0).T))
-    spacing = max(1.0, math.sqrt(8.0 * radius * SCALLOP_PX))
+    spacing, widest = max(1.0, math.sqrt(8.0 * float(radius.min()) * SCALLOP_PX)), float(radius.max())
     at = np.append(np.arange(0.0, travel[-1], spacing), travel[-1])
     centers = np.stack([np.interp(at, travel, way[:, axis]) for axis in (0, 1)], axis=1)
     sample = np.clip(np.searchsorted(travel, at), 1, max(len(travel) - 1, 1)) if len(travel) > 1 else np.zeros_like(at)
-    seen = (centers >= (plot.left - radius, plot.top - radius)).all(axis=1)
-    seen &= (centers <= (plot.right + radius, plot.bottom + radius)).all(axis=1)
-    seen &= ~is_jump[trace.row[sample.astype(np.int64)]]
-    return Discs(np.interp(at[seen], travel, trace.t_s), centers[seen], radius)
+    row = trace.row[sample.astype(np.int64)]
+    seen = (centers >= (plot.left - widest, plot.top - widest)).all(axis=1)
+    seen &= (centers <= (plot.right + widest, plot.bottom + widest)).all(axis=1)
+    seen &= ~is_jump[row]
+    return Discs(np.interp(at[seen], travel, trace.t_s), centers[seen], radius[row[seen]])
 
 
 class CutMap:
@@ -99,12 +105,12 @@ class CutMap:
         centers = self._discs.centers[low:high]
         return self._near(*box_of(centers))
 
-    def tip(self, center: Floats) -> tuple[Span, Levels]:
+    def tip(self, center: Floats, radius: float) -> tuple[Span, Levels]:
         """A disc of the kerf about any place (2,) px of the page, for where the wire is between two discs."""
         span = self._near(center, center)
         x = np.arange(span.left, span.right) + 0.5 + self._corner[0] - center[0]
         y = np.arange(span.top, span.bottom) + 0.5 + self._corner[1] - center[1]
-        inside = self._discs.radius + 0.5 - np.sqrt(x**2 + y[:, None] ** 2)
+        inside = radius + 0.5 - np.sqrt(x**2 + y[:, None] ** 2)
         return span, np.rint(np.clip(inside, 0.0, 1.0) * FULL).astype(np.uint8)
 
     @property
@@ -114,7 +120,7 @@ class CutMap:
 
     def _near(self, low: Floats, high: Floats) -> Span:
         """Pixels as near a box as discs reach."""
-        reach = self._discs.radius + 2.0
+        reach = self._discs.widest + 2.0
         room = (self._wide, self._tall)
         first = np.clip(np.floor(low - reach - self._corner), 0, room).astype(int).tolist()
         past = np.clip(np.ceil(high + reach - self._corner), 0, room).astype(int).tolist()
@@ -125,8 +131,8 @@ class CutMap:
         surface = pygame.Surface((self._wide * FINE, self._tall * FINE), depth=32)
         surface.fill(NEVER)
         fine = np.rint((self._discs.centers - self._corner) * FINE).astype(np.int64).tolist()
-        radius = max(round(self._discs.radius * FINE), 1)
+        radius = np.maximum(np.rint(self._discs.radius * FINE), 1).astype(np.int64).tolist()
         for number in range(len(fine) - 1, -1, -1):
-            pygame.draw.circle(surface, number, fine[number], radius)
+            pygame.draw.circle(surface, number, fine[number], radius[number])
         places = pygame.surfarray.pixels2d(surface).T.reshape(self._tall, FINE, self._wide, FINE)
         return np.ascontiguousarray(places.transpose(1, 3, 0, 2).reshape(FULL, self._tall, self._wide))

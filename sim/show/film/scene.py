@@ -17,6 +17,7 @@ import shapely
 from numpy.typing import NDArray
 
 from parser.geometry.curves import Floats, Ints
+from sim.cut.wire_rows import wire_rows
 from sim.measure.compare.starts import laid_loops
 from sim.run.course import Course, Moment
 from sim.setup.scenario import Scenario
@@ -273,9 +274,9 @@ class PassMap:
         surface = pygame.Surface((round(plot.right - plot.left), round(plot.bottom - plot.top)), depth=32)
         surface.fill(NEVER)
         places = np.rint(self._discs.centers[numbers] - (plot.left, plot.top)).astype(np.int64).tolist()
-        radius = round(self._discs.radius) + 1
-        for number, place in zip(reversed(numbers.tolist()), reversed(places), strict=True):
-            pygame.draw.circle(surface, number, place, radius)
+        radius = (np.rint(self._discs.radius[numbers]).astype(np.int64) + 1).tolist()
+        for number, place, own in zip(numbers.tolist()[::-1], places[::-1], radius[::-1], strict=True):
+            pygame.draw.circle(surface, number, place, own)
         return np.ascontiguousarray(pygame.surfarray.pixels2d(surface).T)
 
 
@@ -310,10 +311,11 @@ class Scene:
         wide = round(layout.plot.right + style.EDGE * unit / 2)
         self._page = Page(wide, round(layout.plot.bottom + AXIS * unit), unit, layout.plot, view)
         self._course, self._theme = course, theme
-        scenario = course.run.scenario
+        run = course.run
         self._drawing = drawing_um(course, view)
-        self._radius = max(scenario.wire.kerf_um * view.px_per_um, style.KERF_WIDTH_MIN * unit) / 2.0
-        discs = discs_of(course.trace, course.run.toolpath.is_jump, view, layout.plot, self._radius)
+        reach_um = wire_rows(run.toolpath, run.scenario, run.passes).reach_um
+        self._radius: Floats = np.maximum(reach_um * view.px_per_um, 0.5 * style.KERF_WIDTH_MIN * unit)  # (n,) by row
+        discs = discs_of(course.trace, run.toolpath.is_jump, view, layout.plot, self._radius)
         self._map = CutMap(discs, layout.plot)
         tones = np.minimum(course.numbers_at(discs.t_s), len(TONES))
         self._passes = PassMap(discs, tones, layout.plot)
@@ -340,8 +342,9 @@ class Scene:
         for span in (self._map.changed(self._front, front), self._tip):
             self._mix(span, self._map.levels(front, span), self._passes.tones(front, span))
         self._front, self._tip = front, NOTHING
-        if moment.cuts and self._radius <= TIP_MOST_PX:
-            self._tip, levels = self._map.tip(self.view.to_px(moment.wire_um))
+        radius = float(self._radius[moment.row])
+        if moment.cuts and radius <= TIP_MOST_PX:
+            self._tip, levels = self._map.tip(self.view.to_px(moment.wire_um), radius)
             number = moment.running.pass_.number if moment.running else 1
             tones = np.where(levels > 0, tone_number(number), self._passes.tones(front, self._tip))
             self._mix(self._tip, np.maximum(self._map.levels(front, self._tip), levels), tones)

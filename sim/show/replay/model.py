@@ -67,6 +67,7 @@ class BlocksEntry(CurvesEntry):
     label: Annotated[list[str], "where its number stands beside it; empty where it has none"]
     first_step: list[int]
     border_s: list[float]
+    reach_um: Annotated[list[float] | None, "half the width of the kerf, where a technology has it by pass"]
 
 
 class NamedTextEntry(TypedDict):

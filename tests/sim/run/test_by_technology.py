@@ -17,6 +17,9 @@ from sim.run.dryrun import DryRun
 from sim.run.report import build_report
 from sim.setup.part import DrawingTarget, Offset, OffsetPass
 from sim.setup.technology import Cut, Technology
+from sim.show.draw.layout import Box, View
+from sim.show.film.cut_map import discs_of
+from sim.show.replay.document import block_columns
 
 SQUARE = """B0B2000B2000GYL2 B2000B0B2000GXL1 B0B4000B4000GYL2 B4000B0B4000GXL3 B0B4000B4000GYL4 B2000B0B2000GXL1
 B0B2000B2000GYL4 DD"""
@@ -73,6 +76,17 @@ def test_the_kerf_is_that_of_each_pass_with_its_own_gap(run: DryRun) -> None:
     assert apart.area / wanted.length < 1.25  # µm: the run steps in whole µm, and the table lags
     narrow = shapely.union_all([disc.buffer(min(GAPS_UM) - max(GAPS_UM)) for disc in discs])
     assert found.symmetric_difference(narrow).area > 5.0 * apart.area  # what one gap for all would leave
+
+
+def test_replay_and_film_cut_as_wide_as_the_pass(run: DryRun) -> None:
+    """Each row of the replay's blocks, and each disc of the film."""
+    number = pass_numbers(run.toolpath, run.passes)
+    wanted = RADIUS_UM + np.array(GAPS_UM)[number - 1]
+    assert block_columns(run)["reach_um"] == pytest.approx(wanted.tolist())
+    plot, view = Box(0.0, 0.0, 4000.0, 4000.0), View(0.1, 2000.0, 2000.0)
+    discs = discs_of(run.trace, run.toolpath.is_jump, view, plot, wanted * view.px_per_um)
+    assert set(np.round(discs.radius, 6).tolist()) == {round(0.1 * (RADIUS_UM + gap), 6) for gap in GAPS_UM}
+    assert block_columns(run_text(SQUARE))["reach_um"] is None
 
 
 def test_widths_are_those_of_the_last_pass_with_its_gap_and_lie_within_its_interval(run: DryRun) -> None:

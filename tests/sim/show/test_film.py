@@ -280,12 +280,13 @@ def brute(discs: Discs, plot: Box) -> np.ndarray:
 def test_a_pixel_is_cut_once_the_first_disc_covers_it(seed: int, radius: float) -> None:
     rng = np.random.default_rng(seed)
     plot = Box(10.0, 20.0, 50.0, 45.0)
-    discs = Discs(np.sort(rng.uniform(0, 9, 12)), rng.uniform((0, 10), (60, 55), (12, 2)), radius)
-    cut_map, away = CutMap(discs, plot), brute(discs, plot)
+    radii = radius * rng.choice([1.0, 0.8], 12)  # passes reach farther and less far
+    discs = Discs(np.sort(rng.uniform(0, 9, 12)), rng.uniform((0, 10), (60, 55), (12, 2)), radii)
+    cut_map, away = CutMap(discs, plot), brute(discs, plot) - radii
     for front in (0, 1, 5, 12):
         levels = cut_map.levels(front, cut_map.whole)
-        assert (levels[(away[..., :front] < radius - 1.4).any(axis=2)] == FULL).all()
-        assert (levels[(away[..., :front] > radius + 1.4).all(axis=2)] == 0).all()
+        assert (levels[(away[..., :front] < -1.4).any(axis=2)] == FULL).all()
+        assert (levels[(away[..., :front] > 1.4).all(axis=2)] == 0).all()
     box = cut_map.changed(3, 7)
     differ = cut_map.levels(3, cut_map.whole) != cut_map.levels(7, cut_map.whole)
     differ[box.of] = False
@@ -297,8 +298,10 @@ def test_a_pixel_is_cut_once_the_first_disc_covers_it(seed: int, radius: float) 
 def test_discs_lie_on_the_way_and_leave_nothing_between_them(radius: float) -> None:
     way = np.array([[0.0, 0.0], [100.0, 0.0], [100.0, 80.0], [20.0, 80.0]])
     trace = Trace(np.array([0.0, 10.0, 20.0, 30.0]), way, way, way, np.array([0, 0, 1, 2]))
-    discs = discs_of(trace, np.array([False, True, False]), View(1.0, 0.0, 100.0), Box(0.0, 0.0, 120.0, 120.0), radius)
+    radii = np.array([radius, radius, 1.1 * radius])
+    discs = discs_of(trace, np.array([False, True, False]), View(1.0, 0.0, 100.0), Box(0.0, 0.0, 120.0, 120.0), radii)
     x, y = discs.centers.T
+    assert discs.radius == pytest.approx(np.where(y == 100.0, radius, 1.1 * radius))
     assert (((y == 100.0) & (x <= 100.0)) | (y == 20.0)).all()  # and none on the jump
     assert discs.t_s == pytest.approx(np.where(y == 100.0, x / 10.0, 20.0 + (100.0 - x) / 8.0))
     gaps = np.diff(x[y == 100.0])

@@ -6,6 +6,7 @@ import pytest
 from places import ROOT
 
 from parser.findings.catalogue import LANGUAGES
+from sim.show.pictures.fit import FIT
 from sim.show.pictures.gallery import PICTURES
 from sim.show.pictures.plan import PLAN
 from sim.show.texts.texts import Words, texts
@@ -22,7 +23,7 @@ def test_a_picture_has_a_name_for_those_who_cannot_see_it(name: str) -> None:
 
 def test_no_name_is_left_of_a_picture_that_there_is_not() -> None:
     named = {key.removeprefix("picture_") for key in texts("common") if key.startswith("picture_")}
-    assert named - {*PICTURES, PLAN} == set(), "sim/show/texts/common.toml names pictures that nothing draws"
+    assert named - {*PICTURES, PLAN, FIT} == set(), "sim/show/texts/common.toml names pictures that nothing draws"
 
 
 def test_the_help_of_draw_names_every_picture_and_says_what_it_shows() -> None:

@@ -21,6 +21,7 @@ from replayed import ASSETS, document_of, empty_page, exports, recording_of, rep
 from runs import scenario_recording
 from strategies import program_text
 
+from controller.offset.shifted import Side
 from controller.stepping.chunks import chunk_of
 from controller.stepping.pulses import Pulses
 from controller.stepping.steps import interpolate
@@ -32,7 +33,9 @@ from sim.run.recording import Recording
 from sim.run.report import build_report
 from sim.setup.machine.machine import Machine, load_machine
 from sim.setup.obstacles import Clamp
+from sim.setup.part import Offset, OffsetPass
 from sim.setup.quiz import Question
+from sim.setup.technology import Cut, Technology
 from sim.setup.wire import Wire
 from sim.show.html.packed import Packer, varints
 from sim.show.replay import tape as tape_module
@@ -612,6 +615,23 @@ def long_document() -> dict[str, Any]:
         "tape": taped(pulses, (0, 0), trace),
         "end": [int(pulses.x_um[-1]), int(pulses.y_um[-1]), float(pulses.t_s[-1])],
     }
+
+
+def test_the_kerf_is_as_wide_as_the_technology_has_the_pass(empty: "Page") -> None:
+    """Half of 180 µm and 20 in the first pass, and 5 in the second, from sample to sample; else of the wire."""
+    row = Cut("steel", 180.0, 40.0, 1, 20.0, None, 2.0, None, None, None, None, None, None, None, None)
+    both = Technology("test", "measured", "here", (row, row._replace(number=2, gap_um=5.0)))
+    passes = (OffsetPass(150.0), OffsetPass(95.0, "back"))
+    half, whole = "B0B300B300GY", "B0B600B600GY"
+    square = f"{half}L2 B300B0B300GXL1 {whole}L2 B600B0B600GXL3 {whole}L4 B300B0B300GXL1 {half}L4 DD"
+    for changes, wanted in (({"technology": both}, {190.0, 220.0}), ({}, {200.0})):
+        replay_of(empty, document_of(square, offset=Offset(passes, Side.RIGHT), **changes))
+        found = empty.evaluate(
+            f"() => {{ const {{ widthSamples }} = {exports('stage')}; const widthUm = widthSamples(replay);"
+            " return Array.from(replay.samples.t, (_, at) => widthUm(at)); }"
+        )
+        assert set(found) == wanted
+        assert (found[0], found[-1]) == (max(wanted), min(wanted))
 
 
 @pytest.mark.deeper

@@ -9,7 +9,7 @@ import { kerfOf } from "../../replay/assets/kerf.js";
 import { modelOf } from "../../replay/assets/model.js";
 import { piecesOf } from "../../replay/assets/pieces.js";
 import { playerOf } from "../../replay/assets/player.js";
-import { cutSamples } from "../../replay/assets/stage.js";
+import { cutSamples, widthSamples } from "../../replay/assets/stage.js";
 import { timelineIn } from "../../replay/assets/timeline.js";
 import * as words from "../../replay/assets/words.js";
 import { plannedOf } from "./planned.js";
@@ -50,7 +50,7 @@ export async function showOfRun(html, colours) {
   const { doc, samples } = replay;
   return {
     replay, model: modelOf(replay), sampleT: samples.t,
-    kerf: kerfOf(samples, cutSamples(replay), 2 * doc.offset_um, colours),
+    kerf: kerfOf(samples, cutSamples(replay), widthSamples(replay), colours),
     pieces: piecesOf(doc, colours), wireUm: doc.wire_diameter_um, isRun: true,
   };
 }
@@ -66,7 +66,7 @@ export async function showOfRun(html, colours) {
 export function showOfPath(path, findings, { wireUm, reachUm }, colours) {
   const { replay, model, samples, cuts } = plannedOf(path, findings);
   return {
-    replay, model, kerf: kerfOf(samples, cuts, 2 * reachUm, colours), sampleT: samples.t, pieces: null, wireUm, isRun: false,
+    replay, model, kerf: kerfOf(samples, cuts, () => 2 * reachUm, colours), sampleT: samples.t, pieces: null, wireUm, isRun: false,
   };
 }
 

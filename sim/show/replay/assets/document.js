@@ -101,6 +101,7 @@
  * @property {string[]} label where its number stands beside it; empty where it has none
  * @property {number[]} first_step
  * @property {number[]} border_s
+ * @property {number[] | null} reach_um half the width of the kerf, where a technology has it by pass
  */
 
 /**

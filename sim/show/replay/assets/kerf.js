@@ -17,13 +17,18 @@ const LEAST_WIDTH = 4; // px: thinner, it would hide under the ideal path
 /** @typedef {ReturnType<typeof kerfOf>} Kerf */
 /** @typedef {PassPaint | null} Cut The colour in which the wire cut on its way to a sample; null where it did not. */
 
+/** @typedef {(at: number) => number} WidthOf How wide the wire cut on its way to a sample, µm. */
+
 /**
- * Marks the samples where cutting begins or ends, or goes on in another colour.
+ * Marks the samples where cutting begins or ends, or goes on in another colour or width.
  * @param {Cut[]} cuts
+ * @param {WidthOf} widthUm
  */
-function borders(cuts) {
+function borders(cuts, widthUm) {
   const marks = new Uint8Array(cuts.length);
-  for (let at = 0; at + 1 < cuts.length; at++) marks[at] = cuts[at] !== cuts[at + 1] ? 1 : 0;
+  for (let at = 0; at + 1 < cuts.length; at++) {
+    marks[at] = cuts[at] !== cuts[at + 1] || widthUm(at) !== widthUm(at + 1) ? 1 : 0;
+  }
   return marks;
 }
 
@@ -31,24 +36,34 @@ function borders(cuts) {
  * Kerf of a replay; `cuts` has one entry a sample.
  * @param {Pick<Samples, "wireX" | "wireY">} samples
  * @param {Cut[]} cuts
- * @param {number} widthUm
+ * @param {WidthOf} widthUm
  * @param {Colours} colours
  */
 export function kerfOf(samples, cuts, widthUm, colours) {
   const { wireX, wireY } = samples;
-  const line = detailOf(wireX, wireY, borders(cuts));
+  const line = detailOf(wireX, wireY, borders(cuts, widthUm));
   const layer = newLayer();
+  const widestUm = cuts.reduce((most, _, at) => Math.max(most, widthUm(at)), 0);
   let drawn = 0; // samples on the layer
+
+  /**
+   * The widest band at a scale, px.
+   * @param {number} scale
+   */
+  function widestPx(scale) {
+    return Math.max(LEAST_WIDTH, widestUm * scale);
+  }
 
   /**
    * Set a pen to draw the band.
    * @param {Pen} pen
    * @param {number} scale
    * @param {PassPaint} paint
+   * @param {number} width µm
    */
-  function dip(pen, scale, paint) {
+  function dip(pen, scale, paint, width) {
     pen.strokeStyle = colours()[paint];
-    pen.lineWidth = Math.max(LEAST_WIDTH, widthUm * scale);
+    pen.lineWidth = Math.max(LEAST_WIDTH, width * scale);
     pen.lineCap = "round";
     pen.lineJoin = "round";
   }
@@ -63,18 +78,20 @@ export function kerfOf(samples, cuts, widthUm, colours) {
     const ink = inkOf(pen);
     /** @type {Cut} */
     let paint = "kerf";
-    dip(pen, view.scale, paint);
-    line.visit(view.scale / layer.coarseness, first, last, view.bounds(pen.lineWidth), (points, at, past) => {
+    let width = widthUm(first);
+    dip(pen, view.scale, paint, width);
+    line.visit(view.scale / layer.coarseness, first, last, view.bounds(widestPx(view.scale)), (points, at, past) => {
       let before = points[at];
       pen.moveTo(view.toX(wireX[before]), view.toY(wireY[before]));
       for (let next = at + 1; next < past; next++) {
         const index = points[next];
         const cut = cuts[index];
-        const isOther = cut !== null && cut !== paint;
+        const isOther = cut !== null && (cut !== paint || widthUm(index) !== width);
         if (isOther) {
           ink.flush();
           paint = cut;
-          dip(pen, view.scale, paint);
+          width = widthUm(index);
+          dip(pen, view.scale, paint, width);
         }
         if (ink.took(1) || isOther) pen.moveTo(view.toX(wireX[before]), view.toY(wireY[before]));
         if (cut) pen.lineTo(view.toX(wireX[index]), view.toY(wireY[index]));
@@ -116,7 +133,7 @@ export function kerfOf(samples, cuts, widthUm, colours) {
       layer.copyTo(pen, view);
       const cut = cuts[last + 1];
       if (!cut) return;
-      dip(pen, view.scale, cut);
+      dip(pen, view.scale, cut, widthUm(last + 1));
       pen.beginPath();
       pen.moveTo(view.toX(wireX[last]), view.toY(wireY[last]));
       pen.lineTo(view.toX(wire[0]), view.toY(wire[1]));

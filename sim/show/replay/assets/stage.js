@@ -18,7 +18,7 @@ import { deviationPlate, drawWire } from "./wire.js";
  * @import { Replay } from "./decode.js"
  * @import { Place } from "./document.js"
  * @import { Room } from "./free_room.js"
- * @import { Cut } from "./kerf.js"
+ * @import { Cut, WidthOf } from "./kerf.js"
  * @import { Model } from "./model.js"
  * @import { PageState } from "./page_state.js"
  * @import { Moment } from "./player.js"
@@ -47,6 +47,23 @@ export function cutSamples({ doc, samples }) {
 }
 
 /**
+ * How wide the wire cut on its way to each sample: as the technology has the pass, else the same everywhere.
+ * @param {Replay} replay
+ * @returns {WidthOf}
+ */
+export function widthSamples({ doc, samples }) {
+  const { border_s: border, reach_um: reach } = doc.blocks;
+  const usual = 2 * doc.offset_um;
+  if (!reach) return () => usual;
+  let row = 0;
+  const widths = Array.from(samples.t, (t) => {
+    while (row + 1 < reach.length && t > border[row + 1]) row++;
+    return 2 * reach[row];
+  });
+  return (at) => widths[at] ?? usual;
+}
+
+/**
  * Stage of a replay on a canvas; `onNeed` asks for a frame.
  * @param {HTMLCanvasElement} canvas
  * @param {Replay} replay
@@ -61,7 +78,7 @@ export function stageOn(canvas, replay, model, onNeed) {
   const path = pathOf(doc.blocks);
   const scene = sceneOf(doc, path, colours);
   const pieces = piecesOf(doc, colours);
-  const kerf = kerfOf(replay.samples, cutSamples(replay), 2 * doc.offset_um, colours);
+  const kerf = kerfOf(replay.samples, cutSamples(replay), widthSamples(replay), colours);
   const micro = microOf(replay, model, colours);
   const motion = motionOf(view, () => !(kerf.isTrue && pieces.isTrue && scene.isTrue) && onNeed());
   const isCalm = window.matchMedia("(prefers-reduced-motion: reduce)");
