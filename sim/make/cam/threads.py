@@ -25,6 +25,7 @@ from sim.make.cam.entered import entered, figures_at
 from sim.make.cam.entries import MOST, Entries, EntryRequest, across_from, corners, nearest_of
 from sim.make.cam.leads import TOLERANCE_UM, Room, are_free, nearest, room_of
 from sim.make.cam.model import CannotCutError, Entry, Figure, Refusal, Thread, ThreadedBy, refused
+from sim.make.cam.offset_path import offset_path
 from sim.make.cam.order import around
 from sim.make.cam.passes import has_slug_tab
 from sim.make.cam.picks import spared
@@ -329,7 +330,10 @@ class _Waste:
         return {at: Thread(Point(*places[at].tolist()), by, entry) for at, entry in entries.items()}
 
     def chosen(self, wanted: Ints, making: Making, taken: Mapping[int, Thread]) -> dict[int, Thread]:
-        """Threads of the figures `wanted` at places in their waste, apart from those that are taken."""
+        """Threads of the figures `wanted` at places in their waste, apart from those that are taken.
+
+        CannotCutError for figures that the wire does not fit into, or in whose waste there is no room.
+        """
         demands = self.demands(making)
         kept_um = np.array([each.place_um for each in taken.values()]).reshape(-1, 2)
         found = chosen(self.room, self.side, wanted, demands, kept_um)
@@ -337,6 +341,8 @@ class _Waste:
             found |= before_corners(self.room, self.side, found, demands, kept_um)
         missing = [at for at in wanted.tolist() if at not in found]
         if missing:
+            for at in missing:  # where the wire itself does not fit in, that is why there is no room
+                offset_path(self.figures[at], self.reach_um, making.corners)
             places = tuple(Point(*self.figures[at].contour.start_um[0].tolist()) for at in missing)
             numbers = ", ".join(str(self.figures[at].number) for at in missing[:_MOST_NUMBERS])
             values = (("figures", numbers), ("least_mm", f"{mm(demands.least_um):.4g}"))

@@ -96,7 +96,7 @@ def test_what_cannot_be_cut_is_refused_before_anything_is_written(tmp_path: Path
     making = Making(side="inside")
     done = made_program(narrow, making, TO_3B, plain_scenario(), lambda stage, done, total: stages.append(stage))
     assert isinstance(done, NotMade)
-    assert done.refusal.why == "no-room"
+    assert done.refusal.why == "too-small"
     assert stages == ["drawing", "figures"]
 
 
@@ -114,7 +114,7 @@ def test_what_the_wire_cannot_cut_stays_uncut_and_the_others_are_proved(tmp_path
     assert isinstance(done, MadeProgram)
     assert done.is_proved
     assert [cut.figure.kind for cut in done.plan.cuts] == ["hole", "outline"]
-    assert [left.why for left in done.plan.to_check] == ["no-room", "narrow-slot"]
+    assert [left.why for left in done.plan.to_check] == ["too-small", "narrow-slot"]
     assert dict(done.plan.to_check[1].values)["width_mm"] == "0.1"
 
 
@@ -187,7 +187,7 @@ def test_a_part_in_a_frame_is_proved_with_the_wire_outside(tmp_path: Path) -> No
 
 
 def test_a_wish_for_a_layer_holds_though_all_its_figures_stay_uncut(tmp_path: Path) -> None:
-    """A hole of R 0.06 has no room for a lead; its layer is no slip."""
+    """A hole of R 0.06 is too small for the wire; its layer is no slip."""
 
     def draw(space: Modelspace) -> None:
         space.add_lwpolyline([(0, 0), (6, 0), (6, 4), (0, 4)], close=True)
@@ -197,4 +197,4 @@ def test_a_wish_for_a_layer_holds_though_all_its_figures_stay_uncut(tmp_path: Pa
     done = made_program(drawn(tmp_path, draw), making, TO_3B, plain_scenario())
     assert isinstance(done, MadeProgram)
     assert done.is_proved
-    assert [left.why for left in done.plan.to_check] == ["no-room"]
+    assert [left.why for left in done.plan.to_check] == ["too-small"]
