@@ -110,6 +110,7 @@ def test_figure_after_figure_is_as_it_was(tmp_path: Path) -> None:
     ]
 
 
+@pytest.mark.alike(5)
 @pytest.mark.parametrize("wanted", [TO_3B, Wanted("4b"), TO_ISO], ids=["3b", "4b", "iso"])
 @pytest.mark.parametrize("name", ["rough first", "slugs by tabs", "both", "three passes"])
 def test_programs_in_rounds_are_proved(tmp_path: Path, name: str, wanted: Wanted) -> None:
@@ -148,6 +149,7 @@ def _are_timed(done: MadeProgram) -> None:
         )
 
 
+@pytest.mark.alike(7)
 @pytest.mark.parametrize("wanted", [TO_3B, TO_ISO], ids=["3b", "iso"])
 @pytest.mark.parametrize("passes_um", [(), (130.0, 100.0), (140.0, 120.0, 100.0)], ids=["one", "two", "three"])
 @pytest.mark.parametrize(("slug_tab_um", "lag_um"), [(0.0, 0.0), (1500.0, 0.0), (1500.0, 20.0)])

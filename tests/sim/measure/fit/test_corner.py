@@ -7,6 +7,7 @@ from functools import cache
 import numpy as np
 import pytest
 import shapely
+from depth import cases
 from runs import run_text
 
 from parser.findings.errors import SettingsError
@@ -88,12 +89,12 @@ def test_lag_and_reach_come_back_whichever_way_the_corner_lies(turn_deg: float, 
 
 
 def test_the_interval_holds_the_lag_as_often_as_it_says() -> None:
-    """60 corners of 90° measured to 0.5 µm: 95 % of the intervals hold the lag, less what chance leaves of 60."""
-    places, inside = measured(90.0, 100.0, 30.0, 40), 0
-    for seed in range(60):
+    """Corners of 90° measured to 0.5 µm: 95 % of the intervals hold the lag, less what chance leaves of so many."""
+    places, inside, seeds = measured(90.0, 100.0, 30.0, 40), 0, cases(30, 60)
+    for seed in seeds:
         _, least, most = value(fit_corner(laid(places, np.random.default_rng(seed), 0.5)), "lag")
         inside += least <= 30.0 <= most
-    assert inside / 60.0 >= 0.88
+    assert inside / len(seeds) >= 0.86
 
 
 def test_a_straight_wire_leaves_the_fillet_of_its_reach() -> None:
