@@ -26,6 +26,7 @@ from sim.check.travel import rapid_findings, tab_stop_findings, too_many_steps, 
 
 if TYPE_CHECKING:  # most checks know no machine, and most programs do not compensate
     from sim.check.compensation.check import OwnCompensation
+    from sim.check.kerf_offsets import Kerfs
     from sim.check.offset import Offsetting
     from sim.setup.machine.table import TableModel
 
@@ -43,6 +44,8 @@ class Demands(NamedTuple):
         Whether contours may end away from their own path.
     added_um
         Offset that the controller adds; None where nobody asked for one.
+    kerfs
+        How wide the wire cuts in each pass; None where no technology is known.
     """
 
     table: "TableModel | None" = None
@@ -50,6 +53,7 @@ class Demands(NamedTuple):
     offset_um: float | None = None
     may_stay_open: bool = False
     added_um: float | None = None
+    kerfs: "Kerfs | None" = None
 
 
 class PathChecked(NamedTuple):
@@ -132,9 +136,23 @@ class _PathChecks:
         yield from self._asked_for()
         reach_um = demands.offset_um if demands.table is not None else None
         yield from header_offset_findings(program, self._passes, reach_um, demands.added_um)
+        yield from self._misfits()
         if self.compensation is not None:
             yield from self.compensation.findings
             yield self._state(Check.COMPENSATION, self._left_out or self._without_value)
+
+    def _misfits(self) -> Iterator[Finding]:
+        """Findings on offsets that do not fit the kerf of their pass."""
+        if self._demands.kerfs is None:
+            return
+        from sim.check.kerf_offsets import misfits  # noqa: PLC0415 - most checks know no technology
+
+        program, passes, made = self._program, self._passes, self.compensation
+        if made is not None:
+            program, passes = made.program, made.edge_passes
+        header_um = self._program.header.get("offset_um")
+        known_um = header_um if isinstance(header_um, float) and header_um > 0.0 else None
+        yield from misfits(program, passes, self._demands.kerfs, known_um)
 
     def _stepped(self) -> list[Finding]:
         """Findings about the words that steps are counted by, where the program has such."""

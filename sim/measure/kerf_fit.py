@@ -8,6 +8,7 @@ from parser.geometry.curves import Floats
 from parser.program import Program
 from parser.shape.passes import Pass
 from parser.units import mm
+from sim.check.kerf_offsets import Reach, misfit
 from sim.measure.compare.findings import by_block, by_entity
 from sim.measure.compare.result import Comparison
 from sim.measure.passes import PassFigures
@@ -36,10 +37,10 @@ def offset_findings(
     """
     for each in figures:
         pass_, offset_um = each.of, offset_of(each.of)
-        reach, (less, more) = float(reach_um[pass_.first]), spread_um[pass_.first].tolist()
-        if offset_um is not None and pass_.shift_um <= pass_.edge_um and not less <= offset_um - reach <= more:
-            values = {"offset": offset_um, "reach": reach, "least": reach + less, "most": reach + more}
-            yield _at(program, "3B607", pass_, number=pass_.number, by=abs(offset_um - reach), **values)
+        reach = Reach(float(reach_um[pass_.first]), *spread_um[pass_.first].tolist())
+        found = None if offset_um is None else misfit(program, pass_, offset_um, reach)
+        if found is not None:
+            yield found
         if pass_.number > 1 and each.stock is not None and each.stock.mean_um <= _NOTHING_UM and not pass_.is_tab:
             yield _at(program, "3B608", pass_, number=pass_.number, taken=each.stock.mean_um)
 

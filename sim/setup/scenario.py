@@ -43,7 +43,16 @@ from sim.setup.part import (
 )
 from sim.setup.quiz import QUIZ, Question, read_quiz
 from sim.setup.settable import INTERPOLATOR, KERF, MAY_STAY_OPEN, PAST_STOP, with_settings
-from sim.setup.technology import Choice, PassTechnology, Technology, assumed_pass, load_technology, passes_at
+from sim.setup.technology import (
+    Choice,
+    PassTechnology,
+    Technology,
+    assumed_pass,
+    load_technology,
+    material_of,
+    pass_of,
+    passes_at,
+)
 from sim.setup.toml.keys import Key, Section, WrittenSection
 from sim.setup.toml.kinds import FileName, Name, Number, TablePlace, Text
 from sim.setup.toml.reader import Bound, load_toml, number, section
@@ -155,12 +164,7 @@ class Scenario:
     @property
     def cut_material(self) -> str | None:
         """What is cut, None without a technology. SettingsError where it knows several, and none is named."""
-        if self.technology is None or self.material is not None:
-            return self.material
-        if len(self.technology.materials) > 1:
-            known = ", ".join(self.technology.materials)
-            raise SettingsError("technology-needs-material", name=self.technology.name, known=known)
-        return self.technology.materials[0]
+        return self.material if self.technology is None else material_of(self.technology, self.material)
 
     @property
     def pass_technologies(self) -> tuple[PassTechnology, ...]:
@@ -175,8 +179,7 @@ class Scenario:
 
     def technology_of(self, number: int) -> PassTechnology:
         """What the pass of a number does, from 1; one that is not known does what the nearest before it does."""
-        known = self.pass_technologies
-        return next((each for each in reversed(known) if each.number <= number), known[0])
+        return pass_of(self.pass_technologies, number)
 
     @property
     def titles(self) -> Bilingual:

@@ -252,6 +252,36 @@ def passes_at(technology: Technology, choice: Choice) -> tuple[PassTechnology, .
     )
 
 
+def material_of(technology: Technology, name: str | None) -> str:
+    """The material that is named, else the only one that is known. SettingsError where there are several to name."""
+    if name is not None:
+        return name
+    if len(technology.materials) > 1:
+        raise SettingsError("technology-needs-material", name=technology.name, known=", ".join(technology.materials))
+    return technology.materials[0]
+
+
+def passes_of(
+    technology: Technology, material: str | None, wire_um: float, height_mm: float | None
+) -> tuple[PassTechnology, ...]:
+    """What each pass does in a material at a height; None for the only one that the technology knows.
+
+    SettingsError where it knows several, and as `passes_at` raises it.
+    """
+    material = material_of(technology, material)
+    heights = sorted({cut.height_mm for cut in technology.cuts if cut.material.casefold() == material.casefold()})
+    if height_mm is None and len(heights) > 1:
+        raise SettingsError("technology-needs-height", name=technology.name, known=", ".join(f"{h:g}" for h in heights))
+    if height_mm is None:
+        height_mm = heights[0] if heights else 1.0
+    return passes_at(technology, Choice(material, wire_um, height_mm))
+
+
+def pass_of(known: Sequence[PassTechnology], number: int) -> PassTechnology:
+    """What the pass of a number does, from 1; one that is not known does what the nearest before it does."""
+    return next((each for each in reversed(known) if each.number <= number), known[0])
+
+
 class _Law(NamedTuple):
     """How a figure of a row is read, and how sure it is.
 

@@ -11,6 +11,7 @@ from parser.dialect.reader import (
     Registers,
     merged,
 )
+from parser.findings.errors import SettingsError
 from parser.units import from_mm
 from sim.check.path_checks import Demands
 from sim.check.result import FailOn
@@ -18,7 +19,9 @@ from sim.setup.toml.keys import Key
 from sim.setup.wire import DEFAULT_WIRE, DIAMETER, SPARK_GAP
 
 if TYPE_CHECKING:
+    from sim.check.kerf_offsets import Kerfs
     from sim.setup.machine.machine import Machine
+    from sim.setup.technology import Technology
 
 
 WIRE_LENGTHS: Final[Mapping[str, Key]] = {"wire_diameter_um": DIAMETER, "spark_gap_um": SPARK_GAP}
@@ -35,6 +38,9 @@ class CheckSettings:
         Table that the program is to fit on, and its start there; the middle of the travel where `start_mm` is None.
     wire_diameter_um, spark_gap_um
         Wire; where only one is given the other is that of the usual wire.
+    technology, material, thickness_mm
+        What the wire does, in which material, the only one that it knows where None, and how high the work is, which
+        may be None where it knows one height.
     may_stay_open
         Whether contours may end away from their own path.
     select, ignore
@@ -57,6 +63,9 @@ class CheckSettings:
     start_mm: tuple[float, float] | None = None
     wire_diameter_um: float | None = None
     spark_gap_um: float | None = None
+    technology: "Technology | None" = None
+    material: str | None = None
+    thickness_mm: float | None = None
     may_stay_open: bool = False
     select: tuple[str, ...] = ()
     ignore: tuple[str, ...] = ()
@@ -86,7 +95,25 @@ class CheckSettings:
         table = self.machine.table if self.machine else None
         start = self.start_mm or (table and (table.travel_x_mm / 2.0, table.travel_y_mm / 2.0))
         start_um = start and (from_mm(start[0]), from_mm(start[1]))
-        return Demands(table, start_um, self._offset_um, self.may_stay_open)
+        kerfs = self._kerfs
+        offset_um = self._offset_um if kerfs is None else kerfs.reach(1).um
+        return Demands(table, start_um, offset_um, self.may_stay_open, kerfs=kerfs)
+
+    @property
+    def _kerfs(self) -> "Kerfs | None":
+        """How wide the wire cuts. SettingsError where the technology does not know that, or what is known besides."""
+        technology = self.technology
+        if technology is None:
+            if self.material is not None:
+                raise SettingsError("material-without-technology", material=self.material)
+            return None
+        if self.spark_gap_um is not None:
+            raise SettingsError("technology-tells-gap", where=technology.name, key="--gap")
+        from sim.check.kerf_offsets import Kerfs  # noqa: PLC0415 - most checks know no technology
+        from sim.setup.technology import passes_of  # noqa: PLC0415
+
+        wire_um = DEFAULT_WIRE.diameter_um if self.wire_diameter_um is None else self.wire_diameter_um
+        return Kerfs(0.5 * wire_um, passes_of(technology, self.material, wire_um, self.thickness_mm))
 
     @property
     def _offset_um(self) -> float | None:

@@ -23,11 +23,13 @@ from sim.check.result import FailOn
 from sim.check.settings.model import WIRE_LENGTHS, CheckSettings
 from sim.setup.dialect import READ_WITH, REGISTERS, UNIT, chosen_dialect, own_dialects_of
 from sim.setup.key_tables import DRAFT
+from sim.setup.part import MATERIAL, THICKNESS
 from sim.setup.toml.kinds import pair_schema
 from sim.setup.toml.reader import PLACE_MM, load_toml, pair, refuse_unknown, section, text, truth
 
 if TYPE_CHECKING:
     from sim.setup.machine.machine import Machine
+    from sim.setup.technology import Technology
 
 
 _PIECE = re.compile(r"(?:(?<=/)|\A)\*\*/|\*+|\[!?\]?[^\]]*\]|.", re.DOTALL)
@@ -86,6 +88,9 @@ KEYS = (
         "root",
         "machine",
         "machines",
+        "technology",
+        "material",
+        "thickness_mm",
         "start_mm",
         "open",
         "select",
@@ -186,6 +191,9 @@ def read_settings(content: Mapping[str, Any], file: Path, name: str) -> Settings
     settings = CheckSettings(
         dialect=dialect,
         machine=_machine(content, file, machines, name),
+        technology=_technology(content, file, name),
+        material=MATERIAL.read(content, name),
+        thickness_mm=THICKNESS.read(content, name) if THICKNESS.name in content else None,
         start_mm=pair(content, "start_mm", name),
         may_stay_open=truth(content, "open", name),
         select=code_list(content.get("select", []), f"{name}: select"),
@@ -282,6 +290,14 @@ def _machine(content: Mapping[str, Any], file: Path, machines: Path | None, wher
     return load_machine(name, file.parent, machines)
 
 
+def _technology(content: Mapping[str, Any], file: Path, where: str) -> "Technology | None":
+    if "technology" not in content:
+        return None
+    from sim.setup.technology import load_technology  # noqa: PLC0415 - most checks know no technology
+
+    return load_technology(file.parent / text(content, "technology", where))
+
+
 def _marks(content: Mapping[str, Any], where: str) -> Marks:
     """Marks that neither are a word of blocks nor mean two things at once."""
     own, of_blocks = own_marks(), block_words()
@@ -323,6 +339,9 @@ def settings_schema() -> dict[str, Any]:
         "root": ("the search for settings ends here", {"type": "boolean"}),
         "machine": ("name of a machine, or its .toml file", {"type": "string"}),
         "machines": ("folder of machine files, whose names count before those that come with drycut", _TEXT),
+        "technology": ("technology file: what the wire does, pass by pass", _TEXT),
+        "material": ("material of the work, one that the technology knows", MATERIAL.schema),
+        "thickness_mm": ("thickness of the work", {**THICKNESS.kind.schema()}),
         "start_mm": ("place of the program's start on the table", pair_schema(PLACE_MM)),
         "open": ("contours may stay open", {"type": "boolean"}),
         "select": ("codes of findings that are shown, or their beginnings", _CODES),

@@ -13,6 +13,7 @@ from sim.cli.options import UNIT, OwnOrNamed, RegisterValue, setting_options, wi
 from sim.cli.spoken import Spoken, spoken, words
 from sim.cli.spoken.values import FilePath, offer_files, offer_machines
 from sim.cli.spread import Spread, pool_of, spread_options
+from sim.setup.part import MATERIAL, THICKNESS
 from sim.setup.wire import DIAMETER, SPARK_GAP
 from sim.show.findings import FORMATS
 
@@ -91,6 +92,8 @@ _WATCH = (click.option("--watch", is_flag=True),)
 _DEMANDS = (
     click.option("--machine", metavar="NAME|FILE", shell_complete=offer_machines),
     *setting_options((DIAMETER, SPARK_GAP)),
+    click.option("--technology", type=FilePath(path_type=Path, dir_okay=False), metavar="FILE.toml"),
+    *setting_options((MATERIAL, THICKNESS)),
     click.option("--open", "may_stay_open", is_flag=True),
 )
 _ISO = (

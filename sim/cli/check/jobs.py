@@ -8,6 +8,7 @@ Both print plain text for people and shells; no program is read.
 import json
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import cached_property
 from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
@@ -38,6 +39,8 @@ from sim.check.settings.read import (
 from sim.check.settings.search import SettingsSearch
 from sim.cli.options import taken_settings
 from sim.setup.dialect import chosen_dialect
+from sim.setup.part import MATERIAL, THICKNESS
+from sim.setup.toml.keys import Key
 from sim.show.terminal.printer import say
 from sim.show.texts import Words
 
@@ -48,6 +51,8 @@ if TYPE_CHECKING:
 
 
 STDIN = "-"
+_OF_WORK: Final[Mapping[str, Key]] = {"material": MATERIAL, "thickness_mm": THICKNESS}
+"""Keys of the work that a technology is asked for, by the fields of `CheckSettings` that have their values."""
 
 
 class CheckOptions(NamedTuple):
@@ -61,6 +66,8 @@ class CheckOptions(NamedTuple):
     ignore: str | None
     fail_on: str | None
     machine: str | None
+    technology: Path | None
+    work: Mapping[str, Any]
     lengths: Mapping[str, float]
     may_stay_open: bool
     dialect: ChosenDialect | None
@@ -75,7 +82,7 @@ class CheckOptions(NamedTuple):
 
 
 NO_OPTIONS: Final = CheckOptions(
-    *(None, None, None, None, {}, False, None, None, (), (), (), None),
+    *(None, None, None, None, None, {}, {}, False, None, None, (), (), (), None),
     no_config=False,
     baseline=None,
     write_baseline=None,
@@ -85,7 +92,11 @@ NO_OPTIONS: Final = CheckOptions(
 
 def check_options_of(values: dict[str, Any]) -> CheckOptions:
     """The options as click hands them over."""
-    return CheckOptions(lengths=taken_settings(WIRE_LENGTHS.values(), values), **values)
+    return CheckOptions(
+        work=taken_settings(_OF_WORK.values(), values),
+        lengths=taken_settings(WIRE_LENGTHS.values(), values),
+        **values,
+    )
 
 
 class Jobs(NamedTuple):
@@ -165,7 +176,7 @@ class _Making:
         placed = self._search.placed(Path(name))
         near = self._near(placed)
         settings = near.settings_of(placed).with_options(
-            {**self._options, **self._dialect(near), **self._machine(near)}
+            {**self._options, **self._dialect(near), **self._machine(near), **self._technology}
         )
         _ = settings.demands  # settings that contradict each other are texts before the first file
         baseline = self._baseline(near)
@@ -203,6 +214,15 @@ class _Making:
             self._machines[near.machines] = load_machine(name, own=near.machines)
         return {"machine": self._machines[near.machines]}
 
+    @cached_property
+    def _technology(self) -> dict[str, Any]:
+        """The technology that the command line names."""
+        if self._asked.technology is None:
+            return {}
+        from sim.setup.technology import load_technology
+
+        return {"technology": load_technology(self._asked.technology)}
+
     def _near(self, placed: Path) -> SettingsFile:
         return self._only or self._search.near(placed.parent)
 
@@ -221,7 +241,7 @@ class _Making:
 def _settings(options: CheckOptions) -> dict[str, Any]:
     """Settings that the command line gives, in place of those of the files."""
     given: dict[str, Any] = {}
-    lengths = options.lengths
+    lengths, work = options.lengths, options.work
     if options.select is not None:
         given["select"] = code_list(options.select.split(","), "--select")
     if options.ignore is not None:
@@ -229,6 +249,7 @@ def _settings(options: CheckOptions) -> dict[str, Any]:
     if options.fail_on is not None:
         given["fail_on"] = mildest_failing(options.fail_on, "--fail-on")
     given |= {field: key.of_option(lengths[key.name]) for field, key in WIRE_LENGTHS.items() if key.name in lengths}
+    given |= {field: key.of_option(work[key.name]) for field, key in _OF_WORK.items() if key.name in work}
     if options.may_stay_open:
         given["may_stay_open"] = True
     read_with = {"dialect": options.dialect, "unit": options.unit, "registers": merged([options.offset])}
@@ -239,6 +260,9 @@ _MOST_KINDS: Final = 6
 """Of files that are passed over, that one line names."""
 _FIELDS: Final = {
     "machine": "machine",
+    "technology": "technology",
+    "material": "material",
+    "thickness_mm": "thickness_mm",
     "start_mm": "start_mm",
     "open": "may_stay_open",
     "select": "select",
@@ -365,7 +389,7 @@ def _value(settings: CheckSettings, key: str) -> str:
     value = getattr(settings, _FIELDS[key])
     if key == "dialect":
         return _toml(str(value))
-    if key == "machine":
+    if key in ("machine", "technology"):
         value = value and value.name
     elif key in ("end_marks", "pause_marks"):
         value = getattr(value, key.removesuffix("_marks"))

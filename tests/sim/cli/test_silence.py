@@ -14,7 +14,7 @@ from sim.check.result import CheckResult, Silenced
 from sim.cli.check.jobs import CheckOptions, jobs_of
 
 NOTHING = CheckOptions(
-    *[None] * 4, {}, False, None, None, (), (), (), None, no_config=False, baseline=None, write_baseline=None
+    *[None] * 5, {}, {}, False, None, None, (), (), (), None, no_config=False, baseline=None, write_baseline=None
 )
 
 
