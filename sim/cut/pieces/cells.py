@@ -20,6 +20,7 @@ THIN_UM = 0.05
 _GAP_UM = 0.06  # and what lies as near to each other as a sliver is thick touches
 _CONTACT_UM = 0.5  # of border: less is a corner, which holds nothing
 _FEW = 6  # kerfs that are taken off a stretch one by one; more are put together first
+_WELL_WITHIN = 0.9  # of the reach: rounds on one way differ by less than a tenth of it, two passes mostly by more
 _AREAL = 2
 _REMADE = 4096  # regions of stretches that are there to be looked at again: some 20 MB of stars, 40 of arcs' bands
 _CELLS = 1 << 15  # stretches whose cells are: a piece that is trimmed when it is loose has all its trims round it
@@ -133,12 +134,30 @@ class Cells:
         (left,) = self._regions_of([stretch])
         kerfs = np.array(self._regions_of(np.sort(near[near < stretch]).tolist()), dtype=np.object_)
         kerfs = kerfs[shapely.intersects(kerfs, left)]
+        if len(kerfs) > _FEW and not len(thick(left := self._behind_repeats(stretch, left, kerfs))):
+            return []
         for kerf in kerfs if len(kerfs) <= _FEW else [union_all(kerfs)]:
             left = difference(left, kerf)
         if not self._stock.contains(shapely.box(*self._boxes[stretch])):
             left = shapely.intersection(left, self._stock)
         parts = thick(left)
         return [Cell(*pair) for pair in zip(parts.tolist(), _grown(parts).tolist(), strict=True)]
+
+    def _behind_repeats(self, stretch: int, left: Region, kerfs: Regions) -> Region:
+        """What is left of a stretch behind the latest kerfs that reach to its sides and to both of its ends.
+
+        Where the wire runs on its own way again, one of these takes all, and the union of many is saved.
+        """
+        first, last = shapely.get_coordinates(self._chords[stretch])
+        ahead = (last - first) * _WELL_WITHIN * self._reach_um[stretch] / max(np.hypot(*(last - first)), THIN_UM)
+        aside, middle = np.array([-ahead[1], ahead[0]]), (first + last) / 2.0
+        for limit in (last + ahead, first - ahead, middle - aside, middle + aside):
+            kerfs = kerfs[shapely.contains_xy(kerfs, *limit)]
+        for kerf in kerfs[: -_FEW - 1 : -1]:
+            left = difference(left, kerf)
+            if not len(thick(left)):
+                break
+        return left
 
     def _regions_of(self, stretches: list[int]) -> list[Region]:
         if len(self._regions) > _REMADE:

@@ -2,6 +2,7 @@
 
 import math
 import random
+from collections.abc import Iterable
 
 import numpy as np
 import pytest
@@ -12,7 +13,9 @@ from sound_shapes import SHAPES, placed
 from traced import STEEL, F, kerf_along, pieces_along, square, trace_of
 
 from parser.toolpath import Point, Toolpath
+from sim.cut.pieces import cells
 from sim.cut.pieces.pieces import pieces_of
+from sim.cut.regions import Region, union_all
 
 
 def punch(side: float = 2000.0) -> Toolpath:
@@ -144,6 +147,35 @@ def test_the_moment_is_before_what_is_cut_into_a_piece_later():
     assert first.freed == second.freed
     assert first.freed.block == 5
     assert first.early
+
+
+def rounds(count: int) -> Toolpath:
+    """A punch of 2 mm that the wire goes round again and again."""
+    pen = Pen(-1000, 0).to(0, 0)
+    for _ in range(count):
+        pen = square(pen, 2000.0)
+    return pen.to(-1000, 0).path()
+
+
+def kerfs_put_together(path: Toolpath, monkeypatch: pytest.MonkeyPatch) -> int:
+    """How many kerfs are put together to find the one piece of a path, the same as that of one round."""
+    counts = []
+
+    def counted(regions: Iterable[Region]) -> Region:
+        counts.append(len(tuple(regions)))
+        return union_all(regions)
+
+    with monkeypatch.context() as patched:
+        patched.setattr(cells, "union_all", counted)
+        (part,) = pieces_along(path).freed
+    assert part.freed.block == 5
+    assert part.outline_um.bounds == pytest.approx((F, F, 2000 - F, 2000 - F), abs=0.05)
+    return sum(counts)
+
+
+def test_rounds_on_the_same_way_cost_no_more_the_more_there_were(monkeypatch: pytest.MonkeyPatch) -> None:
+    ten, twenty = (kerfs_put_together(rounds(count), monkeypatch) for count in (10, 20))
+    assert twenty <= 2.5 * ten + 20  # with a union of all earlier rounds for each: four times as many
 
 
 @pytest.mark.parametrize("more", [150.3, 151.0, 151.7, 160.0])
