@@ -138,6 +138,7 @@ def _row(run: DryRun) -> Row:
         run.scenario.titles,
         findings=counted(run.findings),
         time_s=rounded(run.ran_s),
+        time_within_s=run.time_s and (rounded(run.time_s.least), rounded(run.time_s.most)),
         max_um=rounded(run.deviations.wire.max_um),
         to_check=to_check(run.findings),
         drawing_um=None if run.comparison is None else rounded(run.comparison.max_um),
@@ -184,7 +185,8 @@ def row_of_last_run(folder: Path, digest: str) -> Row | None:
         row = record["row"]
         findings = tuple(Count(code, Severity(severity), n) for code, severity, n in row["findings"])
         said = {name: Bilingual(*row[name]) for name in ("title", "message")}
-        return Row(**{**row, "findings": findings, **said})
+        within = row["time_within_s"] and tuple(row["time_within_s"])
+        return Row(**{**row, "findings": findings, "time_within_s": within, **said})
     except (FileUnreadableError, OSError, ValueError, LookupError, TypeError, AttributeError, RecursionError):
         return None
 

@@ -32,6 +32,8 @@ class Row(NamedTuple):
         How many there are of each code, the worst severity first, then by code.
     time_s, max_um
         How long the machine runs, and the largest deviation of the wire; None without a report.
+    time_within_s
+        Its interval, the least and the most, as the report has it; None where it has none.
     drawing_um
         Largest deviation of the edge from the drawing; None where it was held against none.
     to_check
@@ -45,6 +47,7 @@ class Row(NamedTuple):
     message: Bilingual = _NONE
     findings: tuple[Count, ...] = ()
     time_s: float | None = None
+    time_within_s: tuple[float, float] | None = None
     max_um: float | None = None
     drawing_um: float | None = None
     to_check: bool = False
@@ -100,6 +103,7 @@ def _counts(entries: Sequence[Entry]) -> CountsEntry:
 
 def _program(entry: Entry) -> IndexRowEntry:
     row = entry.row
+    least_s, most_s = row.time_within_s or (None, None)
     return {
         "file": entry.file,
         "title": row.title.en,
@@ -109,6 +113,8 @@ def _program(entry: Entry) -> IndexRowEntry:
         "message": row.message.en or None,
         "findings": [{"code": of.code, "severity": str(of.severity), "count": of.n} for of in row.findings],
         "time_s": row.time_s,
+        "time_least_s": least_s,
+        "time_most_s": most_s,
         "max_um": row.max_um,
         "drawing_um": row.drawing_um,
         "folder": entry.folder,

@@ -51,6 +51,8 @@ class _ResultEntry(TypedDict):
     to_check: bool
     findings: list[FindingCountEntry]
     time_s: Size | None
+    time_least_s: Size | None
+    time_most_s: Size | None
     max_um: Size | None
     drawing_um: Size | None
     folder: Text | None
@@ -82,7 +84,15 @@ INDEX: Final = Document(
             "verdict",
             Judgement,
             {"message": None, "time_s": float, "max_um": float, "folder": str},
-            {"message": Text, "time_s": None, "max_um": None, "folder": None, "from_cache": Literal[False]},
+            {
+                "message": Text,
+                "time_s": None,
+                "time_least_s": None,
+                "time_most_s": None,
+                "max_um": None,
+                "folder": None,
+                "from_cache": Literal[False],
+            },
         ),
     ),
 )
@@ -101,6 +111,7 @@ class ProgramEntry(_ResultEntry):
     verdict: VerdictName
     message: Annotated[SaidEntry | None, "why there is no report"]
     time: Annotated[str, "in hours, minutes and seconds; empty where nothing ran"]
+    time_within: Annotated[str, "its least and its most, as long; empty without an interval"]
     worst_um: Annotated[float | None, "that from the drawing, else that of the wire"]
     picture: Annotated[str, "data of an SVG path"]
 

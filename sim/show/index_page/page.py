@@ -75,10 +75,11 @@ def index_page(index: IndexDocument, additions: Sequence[BesideTheIndex]) -> str
 
 
 def _program(program: IndexRowEntry, more: BesideTheIndex) -> ProgramEntry:
-    time_s = program["time_s"]
+    time_s, least_s, most_s = (program[name] for name in ("time_s", "time_least_s", "time_most_s"))
     return {
         **program,
         "time": "" if time_s is None else hours_text(time_s),
+        "time_within": "" if least_s is None or most_s is None else f"{hours_text(least_s)} … {hours_text(most_s)}",
         "worst_um": program["max_um"] if program["drawing_um"] is None else program["drawing_um"],
         "verdict": outcome_of(program),
         "picture": more.picture,

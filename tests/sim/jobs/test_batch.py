@@ -67,6 +67,8 @@ def test_files_are_those_of_each_program_alone_and_figures_those_of_its_report(t
     row = rows(out)["00.3b"]
     told = (report["verdict"], report["time_s"]["total"], report["deviation"]["wire"]["max_um"])
     assert (row["verdict"], row["time_s"], row["max_um"]) == told
+    within = report["time_s"]["interval"]
+    assert (row["time_least_s"], row["time_most_s"]) == (within["least"], within["most"])
     first = json.loads((out / "index.json").read_bytes())
     again = run_folder(shop, out, Processes(2), language="zh").document
     assert [row["from_cache"] for row in again["programs"]] == [True]

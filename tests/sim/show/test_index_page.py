@@ -24,7 +24,7 @@ FAILS = (Count("3B301", Severity.ERROR, 2), Count("3B405", Severity.WARNING, 1))
 ASSETS = Path(room.__file__).with_name("assets")
 HOSTILE = "</script><img src=x onerror=alert(1)>"
 ROWS = [
-    Row("pass", same("a.3b"), time_s=61.5, max_um=1.25, picture="M1,1l2,0"),
+    Row("pass", same("a.3b"), time_s=61.5, time_within_s=(36.9, 86.1), max_um=1.25, picture="M1,1l2,0"),
     Row(
         "fail",
         Bilingual("Die", "凹模"),
@@ -107,3 +107,9 @@ def zigzag(count: int) -> list[tuple[int, int, int]]:
 def test_a_point_has_no_picture_that_breaks() -> None:
     still = parse_program("B0B0B0GXL1\nDD\n", name=plain_scenario().title).toolpath
     assert thumbnail(still) in {"", "M48,36l0,0"}
+
+
+def test_a_time_stands_with_its_own_interval() -> None:
+    first, second, _ = data_of(page_of(ENTRIES))["programs"]
+    assert (first["time"], first["time_within"]) == ("0:01:02", "0:00:37 … 0:01:26")
+    assert (second["time"], second["time_within"]) == ("1:00:00", "")

@@ -27,6 +27,8 @@ import { element } from "../../html/assets/elements.js";
  * @property {boolean} to_check
  * @property {FindingCount[]} findings
  * @property {number | null} time_s
+ * @property {number | null} time_least_s
+ * @property {number | null} time_most_s
  * @property {number | null} max_um
  * @property {number | null} drawing_um
  * @property {string | null} folder
@@ -34,6 +36,7 @@ import { element } from "../../html/assets/elements.js";
  * @property {"pass" | "to-check" | "incomplete" | "fail" | "refused" | "fault"} verdict
  * @property {Said | null} message why there is no report
  * @property {string} time in hours, minutes and seconds; empty where nothing ran
+ * @property {string} time_within its least and its most, as long; empty without an interval
  * @property {number | null} worst_um that from the drawing, else that of the wire
  * @property {string} picture data of an SVG path
  */

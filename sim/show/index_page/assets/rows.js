@@ -23,10 +23,20 @@ export function rowOf(program, index) {
     make("th", { scope: "row" }, ...named(program)),
     make("td", { className: "verdict" }, verdict, ...kept),
     make("td", { className: "codes" }, ...codes(program.findings, index.titles)),
-    figure("time", program.time || NOTHING),
+    timeOf(program),
     worstOf(program),
   );
   return row;
+}
+
+/**
+ * How long it takes, with its interval.
+ * @param {Program} program
+ */
+function timeOf({ time, time_within: within }) {
+  const cell = figure("time", time || NOTHING);
+  if (within) cell.append(make("span", { className: "aside" }, within));
+  return cell;
 }
 
 /**
