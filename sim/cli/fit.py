@@ -1,8 +1,8 @@
 """``drycut fit``."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import click
 
@@ -52,21 +52,15 @@ def fit(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     drycut fit corner.csv --corner --picture corner.png
     drycut fit piece.csv --machine dk7740 -o mine.toml
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
-    from parser.text.encoding import printable
-    from sim.measure.fit.circle import fit_circle
-    from sim.measure.fit.model import document_text
-    from sim.measure.fit.rows import is_of_features, read_circle
-    from sim.setup.machine.machine import load_machine
-    from sim.show.terminal.fit import print_fit, print_piece
-    from sim.show.terminal.printer import write
+    from sim.measure.fit.rows import is_of_features
 
-    others = {"--back": back, "--feed": feed, "--machine": machine, "-o": output, "--limits": limits}
+    wanted = _Wanted(file, back, limits, feed, machine, output, _Picture(picture, theme), as_json)
     if picture is not None:
         _refuse_picture(picture, (file, output))
-    drawn = _Picture(picture, theme)
     if corner:
+        others = {"--back": back, "--feed": feed, "--machine": machine, "-o": output, "--limits": limits}
         _refuse(others, "not-with-corner")
-        _tell_corner(file, drawn, as_json=as_json)
+        _tell_corner(wanted)
         return
     if output is not None and output.suffix.lower() != ".toml":
         raise click.BadParameter(Message("machine-is-toml", output=output), param_hint="-o")
@@ -74,27 +68,10 @@ def fit(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
         raise click.BadParameter(Message("not-above-0"), param_hint="--feed")
     if is_of_features(file):
         _refuse({"--back": back}, "not-of-a-piece")
-        of_piece = _piece(file, limits)
-        off_um = 0.0 if output is None else _write(of_piece, load_machine(machine or _USUAL), feed, output)
-        drawn.draw(of_piece, file)
-        if as_json:
-            write(document_text(printable(str(file)), of_piece, words()), "json")
-        else:
-            print_piece(of_piece, spoken())
-            _tell_written((output, picture), off_um)
-        return
-    _refuse({"--limits": limits}, "limits-of-a-piece")
-    # A machine file begins somewhere, and its own circle is fitted as the measured one was.
-    base = None if machine is None and output is None else load_machine(machine or _USUAL)
-    by_points = base is not None and base.controller.interpolation == "point-by-point"
-    done = fit_circle(read_circle(file, back), feed, by_points=by_points)
-    off_um = 0.0 if base is None or output is None else _write(done, base, feed, output)
-    drawn.draw(done, file)
-    if as_json:
-        write(document_text(printable(str(file)), done, words()), "json")
+        _tell_piece(wanted)
     else:
-        print_fit(done, spoken(), "" if machine is not None else "unknown" if base is None else "usual")
-        _tell_written((output, picture), off_um)
+        _refuse({"--limits": limits}, "limits-of-a-piece")
+        _tell_circle(wanted)
 
 
 class _Picture(NamedTuple):
@@ -115,6 +92,40 @@ class _Picture(NamedTuple):
         subject = FitSubject(fit, printable(measured.name))
         files = PictureFiles(self.file.parent, {FIT: self.file.name})
         write_pictures(subject, files, SIZES_PX["screen"], self.theme, spoken())
+
+
+class _Wanted(NamedTuple):
+    """What the command is given, by the names of its options."""
+
+    file: Path
+    back: Path | None
+    limits: Path | None
+    feed: float | None
+    machine: str | None
+    output: Path | None
+    picture: _Picture
+    as_json: bool
+
+    def base(self) -> "Machine":
+        """The machine that a new machine file begins with."""
+        from sim.setup.machine.machine import load_machine
+
+        return load_machine(self.machine or _USUAL)
+
+    def finish(
+        self, fit: "CircleFit | CornerFit | PieceFit", print_it: Callable[[], None], off_um: float = 0.0
+    ) -> None:
+        """Draw a fit, and print it, its JSON alone where that is wanted; `off_um` is how far a machine file is off."""
+        from parser.text.encoding import printable
+        from sim.measure.fit.model import document_text
+        from sim.show.terminal.printer import write
+
+        self.picture.draw(fit, self.file)
+        if self.as_json:
+            write(document_text(printable(str(self.file)), fit, words()), "json")
+        else:
+            print_it()
+            _tell_written((self.output, self.picture.file), off_um)
 
 
 def _refuse_picture(picture: Path, others: Iterable[Path | None]) -> None:
@@ -145,32 +156,44 @@ def _tell_written(written: Sequence[Path | None], off_um: float = 0.0) -> None:
         say(words()("commands.written", names=", ".join(names)))
 
 
-def _piece(file: Path, limits: Path | None) -> "PieceFit":
-    """The fit of a test piece: drycut's own, where no limits name the sizes of another one."""
+def _tell_corner(wanted: _Wanted) -> None:
+    """What a measured corner says of the wire."""
+    from sim.measure.fit.corner import fit_corner
+    from sim.measure.fit.rows import read_circle
+    from sim.show.terminal.fit import print_corner
+
+    of_corner = fit_corner(read_circle(wanted.file))
+    wanted.finish(of_corner, lambda: print_corner(of_corner, spoken()))
+
+
+def _tell_piece(wanted: _Wanted) -> None:
+    """What a test piece says of the machine: drycut's own, where no limits name the sizes of another one."""
     from sim.make.piece import piece_limits
     from sim.measure.accept.judge import read_piece
     from sim.measure.fit.piece import fit_piece
     from sim.setup.limits import load_limits
+    from sim.show.terminal.fit import print_piece
 
-    return fit_piece(read_piece(file), load_limits(limits) if limits is not None else piece_limits())
+    file, limits, output = wanted.file, wanted.limits, wanted.output
+    of_piece = fit_piece(read_piece(file), load_limits(limits) if limits is not None else piece_limits())
+    off_um = 0.0 if output is None else _write(of_piece, wanted.base(), wanted.feed, output)
+    wanted.finish(of_piece, lambda: print_piece(of_piece, spoken()), off_um)
 
 
-def _tell_corner(file: Path, picture: _Picture, *, as_json: bool) -> None:
-    """What a measured corner says of the wire."""
-    from parser.text.encoding import printable
-    from sim.measure.fit.corner import fit_corner
-    from sim.measure.fit.model import document_text
+def _tell_circle(wanted: _Wanted) -> None:
+    """What a measured circle says of the machine."""
+    from sim.measure.fit.circle import fit_circle
     from sim.measure.fit.rows import read_circle
-    from sim.show.terminal.fit import print_corner
-    from sim.show.terminal.printer import write
+    from sim.show.terminal.fit import print_fit
 
-    of_corner = fit_corner(read_circle(file))
-    picture.draw(of_corner, file)
-    if as_json:
-        write(document_text(printable(str(file)), of_corner, words()), "json")
-    else:
-        print_corner(of_corner, spoken())
-        _tell_written((picture.file,))
+    machine, output = wanted.machine, wanted.output
+    # A machine file begins somewhere, and its own circle is fitted as the measured one was.
+    base = None if machine is None and output is None else wanted.base()
+    by_points = base is not None and base.controller.interpolation == "point-by-point"
+    of_circle = fit_circle(read_circle(wanted.file, wanted.back), wanted.feed, by_points=by_points)
+    off_um = 0.0 if base is None or output is None else _write(of_circle, base, wanted.feed, output)
+    known: Literal["", "unknown", "usual"] = "" if machine is not None else "unknown" if base is None else "usual"
+    wanted.finish(of_circle, lambda: print_fit(of_circle, spoken(), known), off_um)
 
 
 def _write(done: "CircleFit | PieceFit", base: "Machine", feed_um_s: float | None, output: Path) -> float:
