@@ -341,7 +341,7 @@ def settings_schema() -> dict[str, Any]:
         "machines": ("folder of machine files, whose names count before those that come with drycut", _TEXT),
         "technology": ("technology file: what the wire does, pass by pass", _TEXT),
         "material": ("material of the work, one that the technology knows", MATERIAL.schema),
-        "thickness_mm": ("thickness of the work", {**THICKNESS.kind.schema()}),
+        "thickness_mm": ("thickness of the work", THICKNESS.kind.schema()),
         "start_mm": ("place of the program's start on the table", pair_schema(PLACE_MM)),
         "open": ("contours may stay open", {"type": "boolean"}),
         "select": ("codes of findings that are shown, or their beginnings", _CODES),
