@@ -56,12 +56,15 @@ def plain_lines(codes: Codes) -> PlainLines:
 
 
 def _pieces(codes: Codes) -> list[tuple[int, int]]:
-    """The text in pieces of whole lines, of `_AT_ONCE` characters or little more; a longer line is one of its own."""
+    """The text in pieces of whole lines, of `_AT_ONCE` characters or little more; a longer line is one of its own.
+
+    An empty text is one piece.
+    """
     ends = np.flatnonzero(_KINDS[codes] == _LINE_END) + 1
     wanted = np.arange(_AT_ONCE, len(codes), _AT_ONCE)
     behind = np.append(ends, len(codes))[np.searchsorted(ends, wanted)]
     borders = sorted({0, *behind.tolist(), len(codes)})
-    return list(pairwise(borders))
+    return list(pairwise(borders)) or [(0, 0)]
 
 
 def _of_piece(codes: Codes, since: int) -> PlainLines:

@@ -7,6 +7,8 @@ import pytest
 from cam_programs import sound_program
 
 from parser.dialect.reader import Marks
+from parser.findings.errors import ProgramError
+from parser.program import parse_program
 from parser.text.source import LineIndex
 from parser.threeb import reader
 from parser.threeb.columns import RawBlocks, plain_lines
@@ -79,3 +81,8 @@ def test_a_text_is_cut_at_line_ends_alone() -> None:
     assert len(read.span) == 24_000
     assert set(read.x_um.tolist()) == {123_456_789}
     assert {text[first:past] for first, past in read.span.tolist()} == {block}
+
+
+def test_an_empty_text_has_no_program() -> None:
+    with pytest.raises(ProgramError, match="no block"):
+        parse_program("", "part.3b")

@@ -200,3 +200,7 @@ def test_what_people_are_asked_for_fits_the_dialect(tmp_path: Path) -> None:
     assert {"axis", "quadrant"} <= set(groups_of(parse_program(SQUARE)))
     assert not {"axis", "quadrant"} & set(groups_of(of_scenario("iso-die")))
     assert "side" in groups_of(of_scenario("iso-die"))
+
+
+def test_a_program_of_one_block_has_drills_too() -> None:
+    assert drills_of(parse_program("B1000B0B1000GXL1\n"), CheckSettings(), DrillRequest())
