@@ -90,13 +90,15 @@ golden: browser
 	DRYCUT_RENEW_GOLDEN=1 $(BIN)/pytest $$(grep -rl --include='test_*.py' 'import.* assert_golden' tests)
 
 # Renew docs/findings.md and docs/findings.zh.md from the pages in parser/findings/pages, and the tables of keys in
-# docs/scenarios.md and docs/scenarios.zh.md from those in sim/setup; schemas and types of scripts from models.
+# docs/scenarios.md and docs/scenarios.zh.md from those in sim/setup; schemas and types of scripts from models,
+# and the script of lessons from sim/teach/plain.
 pages: $(READY)
 	$(BIN)/python -m sim.show.findings.catalogue_document
 	$(BIN)/python -m sim.setup.key_tables
 	$(BIN)/python tests/tools/door_page.py
 	PYTHONPATH=. $(BIN)/python tests/tools/schema_pages.py
 	PYTHONPATH=. $(BIN)/python tests/tools/script_types.py
+	PYTHONPATH=. $(BIN)/python tests/tools/plain_script.py
 	$(BIN)/python tests/tools/licence_page.py
 
 # Renew the locks for every Python the project supports: of all, of all extras without the tests, of the core.

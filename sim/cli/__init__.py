@@ -21,6 +21,7 @@ _COMMANDS = {
     "ballbar": "sim.cli.ballbar",
     "card": "sim.cli.card",
     "check": "sim.cli.check.command",
+    "class": "sim.cli.lesson",
     "compare": "sim.cli.compare",
     "convert": "sim.cli.convert",
     "decode": "sim.cli.decode",
@@ -39,6 +40,9 @@ _COMMANDS = {
     "time": "sim.cli.time",
 }
 
+_NAMES = {"class": "lesson"}
+"""What commands are called in their modules where their own name is a word of Python."""
+
 
 class _LazyGroup(SpokenGroup):
     """Group whose commands are imported when they are asked for."""
@@ -49,7 +53,7 @@ class _LazyGroup(SpokenGroup):
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         if cmd_name not in _COMMANDS:
             return None
-        command = getattr(importlib.import_module(_COMMANDS[cmd_name]), cmd_name)
+        command = getattr(importlib.import_module(_COMMANDS[cmd_name]), _NAMES.get(cmd_name, cmd_name))
         assert isinstance(command, click.Command)  # noqa: S101 - a slip in the table above
         return command
 

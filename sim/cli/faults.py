@@ -79,6 +79,7 @@ EXTRA_OF: Final[Mapping[str, str]] = {
     **dict.fromkeys(("pygame", "pymunk", "shapely"), "run"),
     "ezdxf": "drawing",
     "svgelements": "drawing",
+    "xlsxwriter": "class",
     **dict.fromkeys(("starlette", "uvicorn"), "open"),
     **dict.fromkeys(("lsprotocol", "pygls"), "lsp"),
     "imageio_ffmpeg": "film",

@@ -1,1 +1,1 @@
-"""What a class is given: fault drills of a sound program; what crosses the border is `Drill`."""
+"""What a class has: drills of sound programs, and lessons with their marks; what crosses the border is `Drill`."""

@@ -18,9 +18,11 @@ from sim.setup.key_tables import limits_schema, machine_schema, scenario_schema,
 from sim.show.findings.explained import EXPLAIN
 from sim.show.findings.json import CHECK
 from sim.show.index_page.model import INDEX
+from sim.teach.handins import HAND_IN
+from sim.teach.marks_document import MARKS
 
 DOCS = Path(__file__).parents[2] / "docs"
-DOCUMENTS = (ACCEPT, BALLBAR, CHECK, COMPARE, DECODE, EXPLAIN, FIT, INDEX, PROGRAM, REPORT, TIME)
+DOCUMENTS = (ACCEPT, BALLBAR, CHECK, COMPARE, DECODE, EXPLAIN, FIT, HAND_IN, INDEX, MARKS, PROGRAM, REPORT, TIME)
 
 
 def pages() -> Iterator[tuple[Path, str]]:

@@ -23,8 +23,10 @@ from sim.serve.page.model import ANSWERS
 from sim.show.drill_page.page import DrillsEntry
 from sim.show.html.packed import PackedEntry
 from sim.show.index_page.model import IndexEntry
+from sim.show.lesson_page.model import LessonEntry
 from sim.show.replay.model import ReplayDocument
 from sim.show.report_page.tables import TableDataEntry
+from sim.teach.handins import HandInDocument
 
 ROOT = Path(__file__).parents[2]
 SHOW = ROOT / "sim" / "show"
@@ -34,6 +36,7 @@ DOCUMENTS: dict[Path, Sequence[type]] = {
     SHOW / "report_page" / "assets" / "data.js": [TableDataEntry],
     SHOW / "index_page" / "assets" / "data.js": [IndexEntry],
     SHOW / "drill_page" / "assets" / "data.js": [DrillsEntry],
+    SHOW / "lesson_page" / "assets" / "data.js": [LessonEntry, HandInDocument],
     SHOW / "open_page" / "assets" / "data.js": ANSWERS,
 }
 BEGIN, END = "/** Written by `make pages` from the model in Python. */\n", "/** Up to here. */\n"

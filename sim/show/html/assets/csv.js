@@ -24,9 +24,10 @@ export function fileOf(lines) {
  * Save a text as a file.
  * @param {string} name
  * @param {string} text
+ * @param {string} type of the file
  */
-export function save(name, text) {
-  const href = URL.createObjectURL(new Blob([text], { type: "text/csv;charset=utf-8" }));
+export function save(name, text, type = "text/csv") {
+  const href = URL.createObjectURL(new Blob([text], { type: `${type};charset=utf-8` }));
   make("a", { href, download: name }).click();
   window.setTimeout(() => URL.revokeObjectURL(href), 1000); // the browser has begun to read it by then
 }
