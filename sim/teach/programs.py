@@ -8,7 +8,7 @@ from parser.dialect.reader import Choices
 from parser.findings.codes import CODES, Check, Severity
 from parser.geometry.curves import Curves
 from parser.program import Program, parse_program
-from sim.teach.plain.blocks import Block
+from sim.teach.plain.blocks import Block, read_listing
 from sim.teach.plain.curves import Curve, Point, decoded
 from sim.teach.plain.program import ProgramMark, Target, Variant, Written, first_wrong, program_mark
 
@@ -48,9 +48,9 @@ def _is_read(program: Program) -> bool:
 
 
 def _ends(program: Program) -> bool:
-    """Whether an end code stands behind the last block, and no block behind that (3B103)."""
-    is_lost = any(found.code == "3B103" for found in program.findings)
-    return not is_lost and any(stop.kind == "end" for stop in program.toolpath.stops)
+    """Whether there is an end code, and in 3B nothing behind it."""
+    is_last = program.toolpath.words is None or read_listing(program.text).behind_end == 0
+    return is_last and any(stop.kind == "end" for stop in program.toolpath.stops)
 
 
 def blocks_of(words: StepWords) -> list[Block]:

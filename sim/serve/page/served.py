@@ -8,22 +8,18 @@ against the own address, and the path begins with a token that no other page kno
 """
 
 import asyncio
-import contextlib
 import hmac
 import secrets
-import signal
 import socket
-import sys
-from collections.abc import Awaitable, Callable, Coroutine, Iterator, Sequence
+from collections.abc import Awaitable, Callable, Coroutine, Sequence
 from pathlib import Path
-from types import FrameType
 from typing import Any, Final, NamedTuple
 
 import uvicorn
-from starlette.types import ASGIApp, Message, Receive, Scope, Send
+from starlette.types import ASGIApp, Receive, Scope, Send
 
-from parser.findings.errors import DrycutError, system_message
 from sim.base.files import scratch
+from sim.serve.listening import LOOPBACK, Server, answer, bounded, ended_by_signals, listening_on, with_headers
 from sim.serve.page.app import Stores, app_of
 from sim.serve.page.child import Life
 from sim.serve.page.drawings import Drawings
@@ -33,14 +29,6 @@ from sim.serve.page.runs import Runs
 
 MOST_BYTES: Final = 64_000_000
 """Of what a page may send: a program of a million blocks."""
-_HEADERS: Final = (
-    (b"cache-control", b"no-store"),
-    (b"cross-origin-opener-policy", b"same-origin"),
-    (b"cross-origin-resource-policy", b"same-origin"),
-    (b"referrer-policy", b"no-referrer"),
-    (b"x-content-type-options", b"nosniff"),
-    (b"x-frame-options", b"DENY"),
-)
 
 
 class Address(NamedTuple):
@@ -72,14 +60,14 @@ class Guard:
             return
         refused = self._refused(scope)
         if refused:
-            await _answer(send, refused)
+            await answer(send, refused)
             return
         if scope["path"] == f"/{self._address.token}":  # the address without its last slash, as people copy it
-            await _answer(send, 308, [(b"location", f"{self._address.url}".encode())])
+            await answer(send, 308, [(b"location", f"{self._address.url}".encode())])
             return
         begins = len(self._address.token) + 1
         inner = {**scope, "path": scope["path"][begins:], "raw_path": scope["raw_path"][begins:]}
-        await self._app(inner, _bounded(receive), _with_headers(send))
+        await self._app(inner, bounded(receive, MOST_BYTES), with_headers(send))
 
     def _refused(self, scope: Scope) -> int:
         """Status of a refusal; 0 where there is none."""
@@ -107,34 +95,6 @@ def _goes_to_a_page(scope: Scope, headers: dict[bytes, bytes]) -> bool:
     )
 
 
-async def _answer(send: Send, status: int, more: Sequence[tuple[bytes, bytes]] = ()) -> None:
-    await send({"type": "http.response.start", "status": status, "headers": [*_HEADERS, *more]})
-    await send({"type": "http.response.body", "body": b""})
-
-
-def _bounded(receive: Receive) -> Receive:
-    """The same, cut off where more comes than was said."""
-    came = 0
-
-    async def bounded() -> Message:
-        nonlocal came
-        message = await receive()
-        came += len(message.get("body", b""))
-        return {"type": "http.disconnect"} if came > MOST_BYTES else message
-
-    return bounded
-
-
-def _with_headers(send: Send) -> Send:
-    async def sent(message: Message) -> None:
-        if message["type"] == "http.response.start":
-            message = {**message, "headers": [*message.get("headers", []), *_HEADERS]}
-        await send(message)
-
-    return sent
-
-
-_HOST: Final = "127.0.0.1"
 _LOOK_S: Final = 0.2
 _WAY: Final = "drycut.html"
 _WAY_PAGE: Final = """\
@@ -147,18 +107,6 @@ _WAY_PAGE: Final = """\
 """
 
 
-class PortError(DrycutError, OSError):
-    """A port that cannot be listened on; says why."""
-
-
-class _Server(uvicorn.Server):
-    """A server that leaves signals to who runs it."""
-
-    @contextlib.contextmanager
-    def capture_signals(self) -> Iterator[None]:
-        yield
-
-
 def serve(programs: Programs, port: int, ready: Callable[[str, Path], None]) -> None:
     """Serve the page of programs until it is over; `ready` is told the address once it can be opened, and a way there.
 
@@ -166,8 +114,8 @@ def serve(programs: Programs, port: int, ready: Callable[[str, Path], None]) -> 
     stands in a command line, such as that of a browser. Port 0 is any free one. PortError where the port cannot be had.
     """
     life = Life()
-    with _ended_by_signals(life), _listening(port) as listening, scratch() as folder:
-        address = Address(f"{_HOST}:{listening.getsockname()[1]}", secrets.token_urlsafe(24))
+    with ended_by_signals(life.end), listening_on(port) as listening, scratch() as folder:
+        address = Address(f"{LOOPBACK}:{listening.getsockname()[1]}", secrets.token_urlsafe(24))
         runs, drawings = Runs(folder), Drawings(folder)
         app = app_of(programs, Stores(drawings, Machines(folder)), life, runs)
         config = uvicorn.Config(
@@ -178,14 +126,14 @@ def serve(programs: Programs, port: int, ready: Callable[[str, Path], None]) -> 
             server_header=False,
             timeout_graceful_shutdown=2,
         )
-        server = _Server(config)
-        way = _way_to(address, folder)
+        server = Server(config)
+        way = way_to(address, folder)
         ends = [runs.end, drawings.end, programs.end]
         opening = _Opening(lambda: ready(address.url, way), app.state.ahead)
         asyncio.run(_run(server, listening, life, opening, ends))
 
 
-def _way_to(address: Address, folder: Path) -> Path:
+def way_to(address: Address, folder: Path) -> Path:
     """A page that leads to an address, written into a folder that others may not look into."""
     file = folder / _WAY
     file.touch(0o600)
@@ -220,40 +168,3 @@ async def _run(
         await end()
     server.should_exit = True
     await serving
-
-
-@contextlib.contextmanager
-def _listening(port: int) -> Iterator[socket.socket]:
-    with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as listening:
-        try:
-            _claim(listening)
-            listening.bind((_HOST, port))
-            listening.listen()  # from here on nobody else can have the port
-        except OSError as error:
-            raise PortError("port-taken", port=port, why=system_message(error)) from None
-        yield listening
-
-
-def _claim(listening: socket.socket) -> None:
-    """Let the port be had while old connections to it are still dying, and let nobody share it.
-
-    On Windows they do not hinder, and the option that helps elsewhere would let others take a port that is in use.
-    https://learn.microsoft.com/windows/win32/winsock/using-so-reuseaddr-and-so-exclusiveaddruse
-    """
-    if sys.platform == "win32":
-        listening.setsockopt(socket.SOL_SOCKET, socket.SO_EXCLUSIVEADDRUSE, 1)
-    else:
-        listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-
-
-@contextlib.contextmanager
-def _ended_by_signals(life: Life) -> Iterator[None]:
-    def end(_: int, __: FrameType | None) -> None:
-        life.end()
-
-    before = {number: signal.signal(number, end) for number in (signal.SIGINT, signal.SIGTERM)}
-    try:
-        yield
-    finally:
-        for number, handler in before.items():
-            signal.signal(number, handler)

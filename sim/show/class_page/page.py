@@ -4,7 +4,7 @@ Whatever a hand-in says stands escaped.
 """
 
 from pathlib import Path
-from typing import Any, Final
+from typing import Any, Final, Literal, NamedTuple
 
 from parser.findings.catalogue import Bilingual
 from parser.text.encoding import printable
@@ -21,8 +21,23 @@ _MOST_LINES: Final = 60
 """Of an answer, on the page of a pupil."""
 
 
-def class_page(result: ClassResult, files: tuple[str, ...]) -> str:
-    """``index.html``; `files` are the names of the pages of the pupils."""
+class RoomDoor(NamedTuple):
+    """How pupils come to a lesson that is served: addresses in the network, none where it is not, and the code."""
+
+    addresses: tuple[str, ...]
+    code: str
+
+
+def entry_page(title: Bilingual, why: Literal["", "wrong-code", "too-many"] = "") -> str:
+    """Where pupils enter the code of a lesson that is served, and why the last one led nowhere. It needs no script."""
+    return rendered(_ASSETS, "entry.html.j2", title=title, why=bilingual(f"class.{why}") if why else None)
+
+
+def class_page(result: ClassResult, files: tuple[str, ...], door: RoomDoor | None = None) -> str:
+    """``index.html``; `files` are the names of the pages of the pupils.
+
+    Where the lesson is served, `door` is how pupils come to it, and the page looks for new hand-ins.
+    """
     rows = [
         {"mark": mark, "file": file, "flags": flags_of(mark), "minutes": sum(mark.seconds) / 60.0}
         for mark, file in zip(result.marks, files, strict=True)
@@ -36,11 +51,15 @@ def class_page(result: ClassResult, files: tuple[str, ...]) -> str:
         common=[(slip.exercise, slip_text(result, slip), count) for slip, count in result.common],
         pairs=pairs,
         number=points_text,
+        door=door,
     )
 
 
-def pupil_page(result: ClassResult, number: int, seed: int) -> str:
-    """The page of a pupil, by his number, and the seed of his sitting: each answer, what it earned, what is right."""
+def pupil_page(result: ClassResult, number: int, seed: int, back: str = "index.html") -> str:
+    """The page of a pupil, by his number from 0, and the seed of his sitting: answers, what they earned, what is right.
+
+    `back` leads to the page of the class.
+    """
     hand_in, mark = result.hand_ins[number], result.marks[number]
     exercises = [
         {
@@ -60,6 +79,7 @@ def pupil_page(result: ClassResult, number: int, seed: int) -> str:
         flags=flags_of(mark),
         exercises=exercises,
         number=points_text,
+        back=back,
     )
 
 

@@ -20,8 +20,11 @@ _ASSETS: Final = Path(__file__).with_name("assets")
 _DIGEST: Final = 16
 
 
-def lesson_page(ready: ReadyLesson) -> str:
-    """``lesson.html``: the same lesson gives the same bytes. Whatever its files say stands escaped."""
+def lesson_page(ready: ReadyLesson, *, hands_in: bool = False) -> str:
+    """``lesson.html``: the same lesson gives the same bytes. Whatever its files say stands escaped.
+
+    A page that `hands_in` sends what is handed in to the server that it came from; else it saves a file.
+    """
     lesson = ready.lesson
     return rendered(
         _ASSETS,
@@ -32,6 +35,7 @@ def lesson_page(ready: ReadyLesson) -> str:
         exercises=[_view(exercise) for exercise in ready.exercises],
         parts=PARTS,
         box=(WIDTH, HEIGHT),
+        hands_in=hands_in,
         data=lesson_entry(ready),
     )
 

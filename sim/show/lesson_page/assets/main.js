@@ -2,7 +2,7 @@
 import { both, element, elements, make } from "../../html/assets/elements.js";
 import * as language from "../../html/assets/language.js";
 import { readLesson } from "./data.js";
-import { saveHandIn } from "./hand_in.js";
+import { saveHandIn, sendHandIn } from "./hand_in.js";
 import { short } from "./places.js";
 import { newPlatform } from "./scorm.js";
 import { newSitting } from "./sitting.js";
@@ -93,6 +93,18 @@ start.addEventListener("submit", () => {
   show(0);
 });
 element("#save", HTMLButtonElement).addEventListener("click", () => sitting && saveHandIn(sitting.handIn()));
+const send = document.querySelector("#send");
+if (send instanceof HTMLButtonElement) {
+  const sent = element("#sent", HTMLElement);
+  send.addEventListener("click", async () => {
+    if (!sitting) return;
+    send.disabled = true;
+    const isThere = await sendHandIn(sitting.handIn());
+    send.disabled = false;
+    sent.className = `said ${isThere ? "right" : "wrong"}`;
+    sent.replaceChildren(...both(language.said(isThere ? "sent" : "not_sent")));
+  });
+}
 window.addEventListener("beforeunload", (event) => {
   if (sitting && current < steps.length) event.preventDefault();
 });

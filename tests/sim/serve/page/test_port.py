@@ -6,8 +6,8 @@ import sys
 import pytest
 from opened_page import opened_page
 
-from sim.serve.page import served
-from sim.serve.page.served import PortError
+from sim.serve import listening
+from sim.serve.listening import PortError
 
 
 @pytest.mark.deeper
@@ -30,9 +30,9 @@ def test_a_port_can_be_had_at_once_after_its_server_has_ended() -> None:
 
 
 def test_a_port_that_is_listened_on_is_not_shared() -> None:
-    with served._listening(0) as taken:
+    with listening.listening_on(0) as taken:
         port = taken.getsockname()[1]
-        with pytest.raises(PortError, match=f"port {port} cannot be listened on"), served._listening(port):
+        with pytest.raises(PortError, match=f"port {port} cannot be listened on"), listening.listening_on(port):
             pass
 
 
@@ -43,7 +43,7 @@ def test_windows_is_asked_for_a_port_of_our_own(monkeypatch: pytest.MonkeyPatch)
         def setsockopt(self, *told: int) -> None:
             asked.append(told)
 
-    monkeypatch.setattr(served.socket, "SO_EXCLUSIVEADDRUSE", -5, raising=False)
-    monkeypatch.setattr(served.sys, "platform", "win32")
-    served._claim(Recorder())  # type: ignore[arg-type]
+    monkeypatch.setattr(listening.socket, "SO_EXCLUSIVEADDRUSE", -5, raising=False)
+    monkeypatch.setattr(listening.sys, "platform", "win32")
+    listening._claim(Recorder())  # type: ignore[arg-type]
     assert asked == [(socket.SOL_SOCKET, -5, 1)]
