@@ -7,7 +7,7 @@ READY := $(VENV)/.ready
 # Tests start hundreds of processes: each would compile again all that it imports, and each core all tests.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: demo test suite lanes deep lint style types imports scripts browser bench steps mutate survivors fuzz guided golden pages lock release clean
+.PHONY: demo test suite lanes deep lint style types imports scripts browser bench steps mutate survivors fuzz guided golden pages site vsix extension lock release clean
 
 demo: $(READY)
 	$(BIN)/drycut run scenarios/keyhole -o out/keyhole
@@ -16,7 +16,7 @@ demo: $(READY)
 # Types take one core for most of a minute: the suite runs beside them. Scripts come first: tests of pages need what npm
 # installs for them.
 test: browser scripts
-	@$(MAKE) --no-print-directory --jobs types style imports suite
+	@$(MAKE) --no-print-directory --jobs types style imports extension suite
 
 # Each process begins with a run of files, as their tests share what they make, and takes from the others when it is
 # done. `tests/conftest.py` says how many there are.
@@ -101,6 +101,21 @@ pages: $(READY)
 	PYTHONPATH=. $(BIN)/python tests/tools/plain_script.py
 	$(BIN)/python tests/tools/licence_page.py
 
+# The extension for VS Code, in out/drycut.vsix; its grammars are tested by the engine that the editor colours with.
+vsix: extension
+	mkdir -p out
+	cd docs/vscode && npm run --silent vsix -- ../../out/drycut.vsix
+
+extension:
+	@if ! command -v npm >/dev/null; then echo "the extension was not tested: there is no node with npm"; \
+	elif ! $(MAKE) --no-print-directory --silent docs/vscode/node_modules/.package-lock.json; then \
+		echo "the extension was not tested: npm could not install what tests it"; \
+	else cd docs/vscode && npm test --silent; fi
+
+# The site of the documents, in out/site: in English and Chinese, links checked, read without a network.
+site: $(READY)
+	PYTHONPATH=. $(BIN)/python docs/site/build.py
+
 # Renew the locks for every Python the project supports: of all, of all extras without the tests, of the core.
 lock: $(READY)
 	$(BIN)/pip install --quiet uv
@@ -135,6 +150,10 @@ release: $(READY)
 
 clean:
 	rm -rf .venv .venv-* node_modules out dist
+
+docs/vscode/node_modules/.package-lock.json: docs/vscode/package-lock.json
+	cd docs/vscode && npm ci --silent --no-audit --no-fund --ignore-scripts
+	@touch $@
 
 node_modules/.package-lock.json: package-lock.json .npmrc
 	npm ci --silent --no-audit --no-fund

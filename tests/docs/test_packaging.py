@@ -94,7 +94,7 @@ def test_source_package_holds_what_tests_and_documents_need(tmp_path: Path) -> N
     with tarfile.open(tmp_path / done.stdout.splitlines()[-1]) as package:
         names = {name.partition("/")[2] for name in package.getnames()}
     here = [path for folder in ("parser", "tests", "docs", "scenarios") for path in (ROOT / folder).rglob("*.*")]
-    made = {"__pycache__", "failures"}
+    made = {"__pycache__", "failures", "node_modules", "dist"}
     wanted = {path.relative_to(ROOT).as_posix() for path in here if path.is_file() and not made & set(path.parts)}
     scripts = {"package.json", "package-lock.json", ".npmrc", "tsconfig.json", "eslint.config.js"}
     others = {"action.yml", ".pre-commit-hooks.yaml", ".github/action-check.sh", ".ci/build_loops.py"}

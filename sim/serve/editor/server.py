@@ -6,7 +6,7 @@ Findings as diagnostics, and their certain mends as actions.
 import asyncio
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 from urllib.parse import unquote
 
 from lsprotocol import types
@@ -29,7 +29,9 @@ from parser.findings.catalogue import Language, texts
 from parser.findings.codes import Severity
 from parser.findings.findings import Edit, Finding
 from sim.check.file_check import as_typed
+from sim.serve.editor.coloured import TYPES, path_svg, tokens_of
 from sim.serve.editor.shown import Places, Text, hover_of, layout_of, outline_of
+from sim.show.draw.style import ThemeName
 from sim.show.texts import Words
 
 SOURCE: Final = "drycut"
@@ -116,6 +118,8 @@ def _touch(this: Range, other: Range) -> bool:
 
 
 NAME: Final = "drycut"
+PATH_REQUEST: Final = "drycut/path"
+"""Of drycut's own: asked with the ``uri`` of a text and a ``theme``, ``light`` or ``dark``; answered with ``svg``."""
 _PAUSE_S: Final = 0.03
 """Between two keys of who types fast lies more."""
 _ACTIONS: Final = types.CodeActionOptions([types.CodeActionKind.QuickFix, types.CodeActionKind.SourceFixAll])
@@ -204,6 +208,16 @@ def _answer_changes(server: LanguageServer, texts: _Texts) -> None:
 
 
 def _answer_questions(server: LanguageServer, texts: _Texts) -> None:
+    @server.feature(types.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL, types.SemanticTokensLegend(list(TYPES), []))
+    def semantic_tokens(params: types.SemanticTokensParams) -> types.SemanticTokens:
+        return types.SemanticTokens(tokens_of(texts.of(params.text_document.uri)))
+
+    @server.feature(PATH_REQUEST)
+    def path(params: Any) -> dict[str, str]:
+        """The picture of a path as SVG, for an editor that shows it beside the text."""
+        theme: ThemeName = "dark" if getattr(params, "theme", "") == "dark" else "light"
+        return {"svg": path_svg(texts.of(str(params.uri)), theme)}
+
     @server.feature(types.TEXT_DOCUMENT_CODE_ACTION, _ACTIONS)
     def code_action(params: types.CodeActionParams) -> list[types.CodeAction]:
         kinds = [str(getattr(kind, "value", kind)) for kind in params.context.only or ()]

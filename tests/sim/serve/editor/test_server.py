@@ -266,3 +266,38 @@ def test_sound_programs_are_silent(tmp_path: Path) -> None:
     found = session(work)
     assert len(found) == 3
     assert [one for told in found for one in told if one.severity == types.DiagnosticSeverity.Error] == []
+
+
+def test_words_of_blocks_are_painted_where_they_stand() -> None:
+    text = "// 😀\nN1: B9900 B0 B39600 GX NR1 ; 0,0\nB5B6B6GYL1 b7b0b7gxl3\nDD\n"
+
+    async def work(editor: Editor) -> None:
+        await editor.opens("untitled:part.3b", text)
+        asked = types.SemanticTokensParams(types.TextDocumentIdentifier("untitled:part.3b"))
+        found = await editor.text_document_semantic_tokens_full_async(asked)
+        assert found is not None
+        line, column, painted = 0, 0, []
+        for at in range(0, len(found.data), 5):
+            by, start, length, kind, _ = found.data[at : at + 5]
+            line, column = line + by, start + (0 if by else column)
+            painted.append((text.split("\n")[line][column : column + length], kind))
+        words = ["9900", "0", "39600", "GX", "NR1", "5", "6", "6", "GY", "L1", "7", "0", "7", "gx", "l3"]
+        kinds = [0, 0, 0, 1, 3, *[0, 0, 0, 1, 2] * 2]
+        assert painted == list(zip(words, kinds, strict=True))
+
+    session(work)
+
+
+def test_the_path_is_drawn_for_an_editor_that_asks() -> None:
+    async def work(editor: Editor) -> None:
+        await editor.opens("untitled:part.3b", WRONG)
+        for theme in ("light", "dark"):
+            asked = {"uri": "untitled:part.3b", "theme": theme}
+            answer = await editor.protocol.send_request_async("drycut/path", asked)
+            assert "<svg" in answer.svg
+        editor.changes("untitled:part.3b", 2, "nothing")
+        await editor.told()
+        answer = await editor.protocol.send_request_async("drycut/path", {"uri": "untitled:part.3b"})
+        assert answer.svg == ""
+
+    session(work)
