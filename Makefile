@@ -7,7 +7,7 @@ READY := $(VENV)/.ready
 # Tests start hundreds of processes: each would compile again all that it imports, and each core all tests.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: demo test suite lanes deep lint style types imports scripts browser bench steps mutate survivors fuzz guided golden pages site vsix extension lock release clean
+.PHONY: demo test suite lanes deep lint style types imports scripts browser bench steps mutate survivors fuzz guided golden pages site vsix extension windows lock release clean
 
 demo: $(READY)
 	$(BIN)/drycut run scenarios/keyhole -o out/keyhole
@@ -111,6 +111,11 @@ extension:
 	elif ! $(MAKE) --no-print-directory --silent docs/vscode/node_modules/.package-lock.json; then \
 		echo "the extension was not tested: npm could not install what tests it"; \
 	else cd docs/vscode && npm test --silent; fi
+
+# drycut in a folder that needs no Python, dist/drycut, for the system that it is packed on; on Windows an installer too.
+windows: $(READY)
+	$(BIN)/pip install --quiet "pyinstaller>=6.11"
+	PYTHONPATH=. $(BIN)/python docs/windows/build.py
 
 # The site of the documents, in out/site: in English and Chinese, links checked, read without a network.
 site: $(READY)
