@@ -11,12 +11,17 @@ from drill_pages import answers, tasks
 from index_pages import shop_page
 from report_pages import PART, made
 from runs import scenario_recording
+from sittings import marked_class
 
+from sim.show.class_page import class_page, entry_page, pupil_page
+from sim.show.class_page.page import RoomDoor
 from sim.show.replay.document import replay_page
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
 
+LOOKS_ANEW = "window.setInterval(look, EVERY_MS);\nlook();"
+"""What a page that is served does: a page of a file has nobody to ask."""
 LOOKS = [("en", False), ("zh", True)]
 
 
@@ -33,6 +38,25 @@ def replay() -> str:
 @cache
 def shop() -> str:
     return shop_page(8)
+
+
+def class_of_pupils() -> str:
+    result = marked_class(12)
+    return class_page(result, tuple(f"pupil-{number}.html" for number in range(12)))
+
+
+def class_served() -> str:
+    result = marked_class(12)
+    door = RoomDoor(("http://127.0.0.1:8000/",), "012345")
+    return class_page(result, tuple(f"pupil-{number}.html" for number in range(12)), door).replace(LOOKS_ANEW, "")
+
+
+def pupil() -> str:
+    return pupil_page(marked_class(12), 3, 7)
+
+
+def entry() -> str:
+    return entry_page(marked_class(1).title, "wrong-code")
 
 
 def as_it_stands(page: "Page") -> None:
@@ -70,6 +94,10 @@ def with_its_keys(page: "Page") -> None:
         (shop, as_it_stands),
         (answers, as_it_stands),
         (tasks, with_a_drill),
+        (class_of_pupils, as_it_stands),
+        (class_served, as_it_stands),
+        (pupil, as_it_stands),
+        (entry, as_it_stands),
     ],
 )
 def test_axe_has_nothing_against_a_page(

@@ -11,6 +11,7 @@ from old_browser import missing, old_page
 from opened_page import opened_page
 from replayed import recording_of
 from report_pages import PART, made
+from sittings import page as lesson
 
 from sim.show.replay.document import replay_page
 
@@ -95,6 +96,17 @@ def test_a_fault_drill_is_answered(page: "Page", tmp_path: Path) -> None:
     page.evaluate(f"document.querySelector('.drill .what input[value={drill.group}]').click()")
     page.evaluate("document.querySelector('.drill button').click()")
     assert text(page, ".drill .said") == "Right: line and fault."
+    assert text(page, "#too-old") == ""
+
+
+def test_a_lesson_is_begun_and_a_block_is_marked(page: "Page", tmp_path: Path) -> None:
+    opened(page, lesson("1-first-blocks"), tmp_path)
+    page.evaluate("document.querySelector('#name').value = '王小明'; document.querySelector('#class').value = '1'")
+    page.evaluate("document.querySelector('#start button').click()")
+    page.evaluate("document.querySelector('.step:not(.aside-now) input').value = 'B1B0B1GXL1'")
+    page.evaluate("document.querySelector('.step:not(.aside-now) .check').click()")
+    assert text(page, "#who") == "王小明 · 1"
+    assert page.evaluate("document.querySelectorAll('.step:not(.aside-now) .words li').length") == 5
     assert text(page, "#too-old") == ""
 
 

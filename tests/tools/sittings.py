@@ -2,17 +2,19 @@
 
 import functools
 import json
+import tempfile
 from pathlib import Path
 from random import Random
 from typing import Any
 
-from sim.jobs.class_marks import marking_of
+from sim.jobs.class_marks import class_result, marking_of
 from sim.jobs.lessons import lesson_of
 from sim.make.lessons import ReadyLesson
 from sim.show.class_page.page import written
 from sim.show.lesson_page import lesson_page
 from sim.show.lesson_page.page import lesson_entry
 from sim.teach.handins import SCHEMA
+from sim.teach.marking import ClassResult
 from sim.teach.plain.answers import end_question, shape_at, step_question
 from sim.teach.plain.tasks import seed_of_task, task_of
 
@@ -96,3 +98,17 @@ def _damaged(text: str, chance: Random) -> str:
 
 def text_of(hand_in: dict[str, Any]) -> bytes:
     return json.dumps(hand_in, ensure_ascii=False).encode()
+
+
+@functools.cache
+def marked_class(pupils: int) -> ClassResult:
+    """A class that did the first lesson: one of them changed his marks, and two are wrong in the same letters."""
+    lesson = ready("1-first-blocks")
+    with tempfile.TemporaryDirectory() as folder:
+        for number in range(pupils):
+            hand_in = hand_in_of(lesson, f"学生{number}", 0.3 + 0.05 * (number % 12))
+            if number in {1, 2}:
+                hand_in["answers"][2] = [["1, 2"], ["3, 4"], ["5, 6"]]
+            (Path(folder) / f"{number:03}.drycut.json").write_bytes(text_of(hand_in))
+        (Path(folder) / "damaged.drycut.json").write_text("{", "utf-8")
+        return class_result(lesson, Path(folder))
