@@ -321,8 +321,8 @@ class Meters:
         if self._sampling is not None:
             self._sampling.take(pulses)
 
-    def deviations(self, trace: Trace) -> Deviations:
-        """Of all pulses so far, and of the trace that they made."""
+    def deviations(self, trace: Trace, probes: Trace) -> Deviations:
+        """Of all pulses so far, and of the trace that they made; `probes` are places of the table at pulses."""
         along_um = self._plan.at(trace.t_s).along_um
         commanded, table = (self._stage(trace, along_um, place) for place in (trace.commanded_um, trace.table_um))
         bows = trace.wire_um is not trace.table_um
@@ -338,11 +338,19 @@ class Meters:
                 interpolation=whole(self._steps.own if sampling is None else sampling.rounding),
                 carried=self._carried(trace, along_um, commanded),
                 planning=NOTHING if sampling is None else cut_off(self._toolpath, trace, self._plan, self._period_s),
-                table=added(trace, table, commanded),
+                table=max(added(trace, table, commanded), self._at_pulses(probes), key=lambda part: part.max_um),
                 wire=added(trace, wire, table) if bows else NOTHING,
             ),
             sampling=sampling,
         )
+
+    def _at_pulses(self, probes: Trace) -> Part:
+        """What the table adds at the pulses that are looked at: it lags most before it moves for them."""
+        if not len(probes):
+            return NOTHING
+        along_um = self._plan.at(probes.t_s).along_um
+        commanded, table = (self._stage(probes, along_um, each) for each in (probes.commanded_um, probes.table_um))
+        return added(probes, table, commanded)
 
     def _stage(self, trace: Trace, along_um: Floats, place_um: Floats) -> Stage:
         return Stage(place_um, across_um(self._toolpath, trace, place_um, along_um))

@@ -87,7 +87,7 @@ def motion_to_end(ready: Prepared, scenario: Scenario) -> tuple[Motion, Ending |
     """The motion of a program, and where it ends early because the path leaves the travel."""
     toolpath, machine, start_um = ready.program.toolpath, scenario.machine, scenario.start_um
     sampling = Sampling(scenario.trace_spacing_um, scenario.wire_lag_um)
-    motion = motion_of(toolpath, ready.feeds, machine, start_um, sampling)
+    motion = motion_of(toolpath, ready.feeds, machine, start_um, sampling, ready.steps)
     if scenario.past_stop:
         return motion, None
     ended = travel_end(ready, motion, scenario)

@@ -179,7 +179,7 @@ def run_along(
         losses=moved.losses,
         peaks=moved.peaks,
         history=moved.history,
-        deviations=meters.deviations(cut),
+        deviations=meters.deviations(cut, moved.probes.until(ended.t_s) if ended else moved.probes),
         contours=contours,
         passes=passes,
         pass_figures=figures,

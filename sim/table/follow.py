@@ -83,7 +83,8 @@ class Following:
         self._trip: tuple[Axis, Slip] | None = None
         self._last_um = np.array([setup.origin_um], dtype=np.int64)
         self._known_s = self._followed_s = 0.0
-        self._commanded_um = np.zeros((len(ticks.t_s), 2))
+        self._sample_s, self._is_probe = ticks.looks
+        self._commanded_um = np.zeros((len(self._sample_s), 2))
         self._commanded = 0
 
     @property
@@ -116,20 +117,20 @@ class Following:
         self._sample(pulses.t_s, places)
         self._follow(self._known_s - max(run.ahead_s for run in self._runs), len(pulses.t_s))
 
-    def finish(self) -> tuple[Trace, tuple[Loss, ...], tuple[Peak, ...], History]:
-        """Let the table come to rest, and sum up."""
+    def finish(self) -> tuple[Trace, Trace, tuple[Loss, ...], tuple[Peak, ...], History]:
+        """Let the table come to rest, and sum up: its trace, its places at the pulses that are looked at, and more."""
         ticks, end_s = self._ticks, float(self._ticks.t_s[-1])
         self._follow(end_s)
         for run in self._runs:
             run.rest(end_s, self.tripped_s)
         self._commanded_um[self._commanded :] = self._last_um
-        trace = self._trace()
+        trace, probes = self._traces()
         losses = [loss for axis in Axis for loss in self._axes[axis].losses(axis, trace)]
         if self._trip:
             losses.append(trip_loss(*self._trip, trace, ticks))
         (x, y), drives = (run.record for run in self._runs), drives_of(self._setup.model)
         history = history_of((x, y), drives, min(end_s, self.tripped_s))
-        return trace, in_order(losses), peaks_of((x, y), drives, trace, ticks), history
+        return trace, probes, in_order(losses), peaks_of((x, y), drives, trace, ticks), history
 
     def _follow(self, until_s: float, pulses: int = 0) -> None:
         """Follow up to a time, so many pulses. Where a servo trips, both axes go there again, braking from then on."""
@@ -165,20 +166,23 @@ class Following:
 
     def _sample(self, t_s: Floats, places_um: Ints) -> None:
         """Note what is commanded at the samples before the last of some pulses, whose places are (n + 1, 2)."""
-        sample_s = self._ticks.t_s
+        sample_s = self._sample_s
         until = int(np.searchsorted(sample_s, t_s[-1] - _GRACE_S))
         pulse = np.searchsorted(t_s, sample_s[self._commanded : until] + _GRACE_S, side="right")
         self._commanded_um[self._commanded : until] = places_um[pulse]
         self._commanded = max(until, self._commanded)
 
-    def _trace(self) -> Trace:
-        """The trace: the start, and all samples."""
-        start = np.array([self._setup.origin_um], dtype=np.float64)
+    def _traces(self) -> tuple[Trace, Trace]:
+        """The trace, the start and all samples; and the same at pulses, without the start."""
+        origin = np.array([self._setup.origin_um], dtype=np.float64)
         place = np.stack([run.record.sampled_um for run in self._runs], axis=1)
-        commanded, place = (np.concatenate([start, column]) for column in (self._commanded_um, place))
-        row = np.concatenate([self._ticks.row[:1], self._ticks.row])
-        place = self._placed(place)
-        return Trace(np.append(0.0, self._ticks.t_s), commanded, place, place, row)
+        ticks, is_probe = self._ticks, self._is_probe
+        commanded = np.concatenate([origin, self._commanded_um[~is_probe]])
+        sampled = self._placed(np.concatenate([origin, place[~is_probe]]))
+        row = np.concatenate([ticks.row[:1], ticks.row])
+        trace = Trace(np.append(0.0, ticks.t_s), commanded, sampled, sampled, row)
+        at_pulses = self._placed(place[is_probe])
+        return trace, Trace(ticks.probe_s, self._commanded_um[is_probe], at_pulses, at_pulses, ticks.probe_row)
 
     def _placed(self, place_um: Floats) -> Floats:
         """Where the slides are that stand at places (n, 2) by their screws, in program coordinates."""

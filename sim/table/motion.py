@@ -14,13 +14,14 @@ from controller.host.host import Host
 from controller.motion.limits import Feeds, row_limits
 from controller.motion.planner import plan_rows
 from controller.stepping.pulses import Pulses, joined
+from controller.stepping.steps import Steps
 from parser.toolpath import Toolpath
 from sim.base.progress import Progress, silent
 from sim.setup.machine.machine import Machine
 from sim.table.follow import Following, Setup
 from sim.table.history import History
 from sim.table.losses import Loss, Peak
-from sim.table.ticks import Sampling, Ticks, choose_ticks, rhythm
+from sim.table.ticks import Sampling, Ticks, choose_ticks, probes_of, rhythm
 from sim.table.trace import Trace, origin_um
 
 _TOGETHER = 1 << 14
@@ -52,29 +53,39 @@ class Motion(NamedTuple):
 
 
 class Moved(NamedTuple):
-    """How the table moved: its trace, the losses of its drives, their peaks against the limits, and its history."""
+    """How the table moved: its trace, losses of its drives, their peaks against the limits, and its history.
+
+    `probes` are its places at pulses, where it lags most behind its command.
+    """
 
     trace: Trace
+    probes: Trace
     losses: tuple[Loss, ...]
     peaks: tuple[Peak, ...]
     history: History
 
 
-def motion_of(
+def motion_of(  # noqa: PLR0913, PLR0917 - what moves, by what, and how closely it is watched
     toolpath: Toolpath,
     feeds: Feeds,
     machine: Machine,
     start_um: tuple[float, float],
     sampling: Sampling,
+    steps: Steps | None = None,
 ) -> Motion:
-    """Motion of a toolpath on a machine, planned at these feeds; the trace has samples as `sampling` has it."""
+    """Motion of a toolpath on a machine, planned at these feeds; the trace has samples as `sampling` has it.
+
+    With its steps the table is looked at where it lags most, too.
+    """
     controller = machine.controller
     limits = row_limits(toolpath, feeds, controller.limits)
     plan = plan_rows(limits, jerk_um_s3=controller.limits.jerk_um_s3)
     drive = Drive(toolpath, limits, plan, origin_um(toolpath), controller.interpolation)
     x, y = controller.limits.axis_speed_um_s
     table = Setup(machine.table, start_um, origin_um(toolpath), (x, y), machine.engine)
-    ticks = choose_ticks(toolpath, plan, rhythm(machine.table), sampling)
+    period_s = controller.card_settings.servo_period_s if controller.interpolation == "card" else None
+    probe_s = () if steps is None else (probes_of(steps, plan, period_s),)
+    ticks = choose_ticks(toolpath, plan, rhythm(machine.table), sampling, *probe_s)
     return Motion(drive, controller.card_settings, table, ticks)
 
 

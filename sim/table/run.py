@@ -116,7 +116,7 @@ class AxisRun:
     def __init__(self, axis: Axis, at_um: int, ticks: Ticks, engine: Engine) -> None:
         place = float(at_um)
         self._engine, self._loop = engine, axis.loop
-        self.record = _record_of(borders_s(ticks), ticks.t_s, place)
+        self.record = _record_of(borders_s(ticks), ticks.looks[0], place)
         self._train = Train(np.array([np.inf]), np.array([place]))
         rating = rated(axis.strength, self._train, Rating(0.0, 0.0, 0.0, 0, 0), -RATE_WINDOW_S)
         self._state = engine.at_rest(self._train, place, rating)

@@ -6,13 +6,15 @@ enough to be felt, ticks are finer still until that shake has died. Between step
 Rhythm: how the axes of a table answer, which says how finely and for how long they have to be watched.
 """
 
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
 
 from controller.motion.plan import Plan
+from controller.stepping.pulses import time_steps
+from controller.stepping.steps import Steps
 from parser.geometry.along import directions
-from parser.geometry.curves import Floats, Ints
+from parser.geometry.curves import Bools, Floats, Ints
 from parser.toolpath import Toolpath
 from sim.setup.machine.table import TableModel
 from sim.table.drive import drives_of
@@ -104,6 +106,8 @@ _TURN_RAD = 0.01
 """A wire cuts less than 0.004 lag off a corner of less."""
 
 _COINCIDE_S = 1e-6
+_AT_S = 1e-9
+"""A moment that is so little behind a border of blocks still counts as at it."""
 
 
 class Ticks(NamedTuple):
@@ -120,6 +124,9 @@ class Ticks(NamedTuple):
     step_tick_s, steps_tick_s, shaken_tick_s
         Ticks of X and of Y, falling: while single steps are felt, while a motor makes several at once, and while the
         axes are shaken by more.
+    probe_s, probe_row
+        (p,) float64 and int64, times of pulses at which the table is looked at besides, for the most that it adds to
+        its command, and the rows that were running; the trace has no samples of them.
     """
 
     t_s: Floats
@@ -128,6 +135,15 @@ class Ticks(NamedTuple):
     step_tick_s: tuple[float, float]
     steps_tick_s: tuple[float, float]
     shaken_tick_s: tuple[float, float]
+    probe_s: Floats = np.empty(0)
+    probe_row: Ints = np.empty(0, dtype=np.int64)
+
+    @property
+    def looks(self) -> tuple[Floats, Bools]:
+        """All times (n + p,) at which the table is looked at, in order, and which of them are pulses and no samples."""
+        t_s = np.concatenate([self.t_s, self.probe_s])
+        order = np.argsort(t_s, kind="stable")
+        return t_s[order], order >= len(self.t_s)
 
     def row_at(self, t_s: float) -> int:
         """Row of the toolpath that was running at a time."""
@@ -135,14 +151,25 @@ class Ticks(NamedTuple):
 
     def until(self, t_s: float) -> "Ticks":
         """The ticks up to a time above 0, where the trace gets its last sample."""
-        at = int(np.searchsorted(self.t_s, t_s - _COINCIDE_S))
-        return self._replace(t_s=np.append(self.t_s[:at], t_s), row=np.append(self.row[:at], self.row_at(t_s)))
+        at, probes = (int(np.searchsorted(times, t_s - _COINCIDE_S)) for times in (self.t_s, self.probe_s))
+        return self._replace(
+            t_s=np.append(self.t_s[:at], t_s),
+            row=np.append(self.row[:at], self.row_at(t_s)),
+            probe_s=self.probe_s[:probes],
+            probe_row=self.probe_row[:probes],
+        )
 
 
-def choose_ticks(toolpath: Toolpath, plan: Plan, rhythm: Rhythm, sampling: Sampling) -> Ticks:
+_NO_PROBES: Final = np.empty(0)
+
+
+def choose_ticks(
+    toolpath: Toolpath, plan: Plan, rhythm: Rhythm, sampling: Sampling, probe_s: Floats = _NO_PROBES
+) -> Ticks:
     """Ticks of a program, from 0 until the table has come to rest after the end of the plan.
 
-    The trace gets a sample at every border of blocks, and on the path as `sampling` has it.
+    The trace gets a sample at every border of blocks, and on the path as `sampling` has it. `probe_s` are rising times
+    of pulses.
     """
     before = toolpath.before_um
     borders = plan.time_at(before)
@@ -152,12 +179,47 @@ def choose_ticks(toolpath: Toolpath, plan: Plan, rhythm: Rhythm, sampling: Sampl
     samples = _apart(np.unique(samples[samples > 0.0]))
     return Ticks(
         t_s=samples,
-        row=np.minimum(np.searchsorted(borders[1:], samples - 1e-9, side="right"), len(toolpath) - 1),
+        row=_rows_at(borders, samples),
         shaken_s=_joined(np.concatenate([shakes(toolpath, plan, before, rhythm), [[plan.duration_s, rest]]])),
         step_tick_s=rhythm.tick_s(STEP_RAD),
         steps_tick_s=rhythm.tick_s(STEPS_RAD),
         shaken_tick_s=rhythm.tick_s(SHAKEN_RAD),
+        probe_s=probe_s,
+        probe_row=_rows_at(borders, probe_s),
     )
+
+
+def _rows_at(border_s: Floats, t_s: Floats) -> Ints:
+    """Rows of the toolpath (m,) that run at times, by the times of their borders."""
+    return np.minimum(np.searchsorted(border_s[1:], t_s - _AT_S, side="right"), len(border_s) - 2)
+
+
+MOST_PROBES: Final = 200_000
+"""Pulses that the table is looked at, about: of more, runs of `_TOGETHER` are taken, evenly spread."""
+_TOGETHER: Final = 1000
+
+
+def probes_of(steps: Steps, plan: Plan, period_s: float | None) -> Floats:
+    """Times of pulses, rising, at which a table lags most behind its command: all of them, or runs of them.
+
+    Each step of `steps` has a pulse; where a card interpolates, pulses come at the ends of its periods.
+    """
+    if period_s is not None:
+        ends = np.concatenate([np.arange(*window) for window in _windows(int(plan.duration_s / period_s))])
+        return np.asarray((ends + 1.0) * period_s)
+    from controller.stepping.chunks import chunk_of  # noqa: PLC0415 - loads the compiler
+
+    times = [time_steps(chunk_of(steps, *window), plan).t_s for window in _windows(len(steps))]
+    return np.concatenate(times)
+
+
+def _windows(count: int) -> list[tuple[int, int]]:
+    """First and past number of runs that are looked at, of so many in all."""
+    if count <= MOST_PROBES:
+        return [(0, count)]
+    first = np.linspace(0, count - _TOGETHER, MOST_PROBES // _TOGETHER).astype(np.int64)
+    first = first[np.diff(first, prepend=-_TOGETHER) >= _TOGETHER]
+    return [(begin, begin + _TOGETHER) for begin in first.tolist()]
 
 
 def _spaced(before: Floats, spacing_um: float) -> Floats:

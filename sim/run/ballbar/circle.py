@@ -162,7 +162,7 @@ def _run(test: CircleTest, sense: Sense, progress: Progress) -> _Run:
     table = TableRun(motion, progress_of_sense)
     for pulses in table.followed(driven(motion)):
         window.take(pulses)
-    trace, losses, *_ = table.moved
+    trace, _, losses, *_ = table.moved
     measured = (trace.t_s >= start_s) & (trace.t_s <= end_s)
     center_um = trace.commanded_um[0] - (test.radius_um, 0.0)
     turned = window.pulses()
