@@ -244,7 +244,7 @@ def test_printed_it_has_all_tasks_and_no_answer(open_page: OpenPage) -> None:
     shown.evaluate("window.dispatchEvent(new Event('beforeprint'))")
     tasks = sum(exercise.rules.tasks for exercise in ready("2-circle-and-quadrant").exercises)
     assert shown.locator("form.step:visible").count() == tasks
-    assert shown.locator(".answer:visible, .go:visible, .reasons:visible").count() == 0
+    assert shown.locator(".answer:visible, .step .go:visible, button:visible, .reasons:visible").count() == 0
     assert all(text.strip() for text in shown.locator(".ask").all_inner_texts())
 
 
