@@ -8,7 +8,7 @@ Meters on the pulses of a run: how many steps a block makes, and how far they li
 """
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -299,6 +299,31 @@ class Deviations(NamedTuple):
     sampling: Sampling | None
 
 
+_MEASURED: Final = 2000
+"""Pulses at which what the table adds is measured: so many where it lags most across, and by borders of blocks."""
+_BY_BORDER: Final = np.arange(-20, 21)
+"""Pulses around one at which a block ends."""
+
+
+def _largest_of(value: Floats) -> Ints:
+    """Numbers of the `_MEASURED` largest values (m,)."""
+    count = min(_MEASURED, len(value))
+    return np.argpartition(value, len(value) - count)[len(value) - count :]
+
+
+def _lag_across_um(toolpath: Toolpath, trace: Trace) -> Floats:
+    """How far (m,) the table stands from its command across the block that runs, whichever way."""
+    by, row = trace.table_um - trace.commanded_um, trace.row
+    out = np.where(toolpath.is_arc[:, None], np.nan, toolpath.end_um - toolpath.start_um)[row]
+    is_arc = toolpath.is_arc[row]
+    radial = trace.commanded_um[is_arc] - toolpath.center_um[row[is_arc]]
+    out[is_arc] = np.stack([-radial[:, 1], radial[:, 0]], axis=1)  # the way on an arc is across its radius
+    length = np.hypot(out[:, 0], out[:, 1])
+    across = np.abs(out[:, 0] * by[:, 1] - out[:, 1] * by[:, 0])
+    lag: Floats = np.divide(across, length, out=np.zeros_like(length), where=length > 0.0)
+    return lag
+
+
 class Meters:
     """All that is measured of the pulses of a run, and of the trace that they make."""
 
@@ -345,12 +370,22 @@ class Meters:
         )
 
     def _at_pulses(self, probes: Trace) -> Part:
-        """What the table adds at the pulses that are looked at: it lags most before it moves for them."""
+        """What the table adds at the pulses that are looked at: it lags most before it moves for them.
+
+        Of these the pulses are measured at which it lags most across their own blocks, and most at all by borders of
+        blocks, where another block may be the nearer one.
+        """
         if not len(probes):
             return NOTHING
-        along_um = self._plan.at(probes.t_s).along_um
-        commanded, table = (self._stage(probes, along_um, each) for each in (probes.commanded_um, probes.table_um))
-        return added(probes, table, commanded)
+        moved = np.hypot(*(probes.table_um - probes.commanded_um).T)
+        by_border = np.zeros(len(probes), dtype=bool)
+        around = np.flatnonzero(np.diff(probes.row))[:, None] + _BY_BORDER
+        by_border[np.clip(around.ravel(), 0, len(probes) - 1)] = True
+        most = np.union1d(_largest_of(_lag_across_um(self._toolpath, probes)), _largest_of(moved * by_border))
+        closest = Trace(probes.t_s[most], probes.commanded_um[most], *2 * (probes.table_um[most],), probes.row[most])
+        along_um = self._plan.at(closest.t_s).along_um
+        commanded, table = (self._stage(closest, along_um, each) for each in (closest.commanded_um, closest.table_um))
+        return added(closest, table, commanded)
 
     def _stage(self, trace: Trace, along_um: Floats, place_um: Floats) -> Stage:
         return Stage(place_um, across_um(self._toolpath, trace, place_um, along_um))

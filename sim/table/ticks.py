@@ -194,9 +194,13 @@ def _rows_at(border_s: Floats, t_s: Floats) -> Ints:
     return np.minimum(np.searchsorted(border_s[1:], t_s - _AT_S, side="right"), len(border_s) - 2)
 
 
-MOST_PROBES: Final = 200_000
-"""Pulses that the table is looked at, about: of more, runs of `_TOGETHER` are taken, evenly spread."""
-_TOGETHER: Final = 1000
+MOST_PROBES: Final = 100_000
+"""Pulses that the table is looked at, about, besides those at borders of blocks: of more, runs of `_TOGETHER`."""
+_TOGETHER: Final = 2000
+_BY_BORDER: Final = 20
+"""Pulses on either side of a border of blocks, where what lags may lie across another block."""
+_MOST_BORDERS: Final = 150
+"""Borders that are looked at where not all pulses are."""
 
 
 def probes_of(steps: Steps, plan: Plan, period_s: float | None) -> Floats:
@@ -205,21 +209,25 @@ def probes_of(steps: Steps, plan: Plan, period_s: float | None) -> Floats:
     Each step of `steps` has a pulse; where a card interpolates, pulses come at the ends of its periods.
     """
     if period_s is not None:
-        ends = np.concatenate([np.arange(*window) for window in _windows(int(plan.duration_s / period_s))])
+        borders = (plan.border_s(steps.along_um) / period_s).astype(np.int64)
+        ends = np.concatenate([np.arange(*window) for window in _windows(int(plan.duration_s / period_s), borders)])
         return np.asarray((ends + 1.0) * period_s)
     from controller.stepping.chunks import chunk_of  # noqa: PLC0415 - loads the compiler
 
-    times = [time_steps(chunk_of(steps, *window), plan).t_s for window in _windows(len(steps))]
+    times = [time_steps(chunk_of(steps, *window), plan).t_s for window in _windows(len(steps), steps.before)]
     return np.concatenate(times)
 
 
-def _windows(count: int) -> list[tuple[int, int]]:
-    """First and past number of runs that are looked at, of so many in all."""
+def _windows(count: int, border: Ints) -> list[tuple[int, int]]:
+    """First and past number of runs that are looked at, of so many; `border` are numbers at borders of blocks."""
     if count <= MOST_PROBES:
         return [(0, count)]
     first = np.linspace(0, count - _TOGETHER, MOST_PROBES // _TOGETHER).astype(np.int64)
-    first = first[np.diff(first, prepend=-_TOGETHER) >= _TOGETHER]
-    return [(begin, begin + _TOGETHER) for begin in first.tolist()]
+    every = 1 + len(border) // _MOST_BORDERS
+    low = np.concatenate([first, np.maximum(border[::every] - _BY_BORDER, 0)])
+    past = np.concatenate([first + _TOGETHER, np.minimum(border[::every] + _BY_BORDER, count)])
+    joined = _joined(np.stack([low, past], axis=1).astype(np.float64))
+    return [(int(begin), int(end)) for begin, end in joined.tolist() if end > begin]
 
 
 def _spaced(before: Floats, spacing_um: float) -> Floats:

@@ -5,16 +5,18 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from plans import plan_toolpath
+from runs import scenario_recording
 from table_runs import MODEL, Drawn, draw, even_ticks, farthest_um, fixed, motion, moved, pulses_of
 
 from controller.motion.limits import Feeds, MotionLimits
+from controller.stepping.steps import interpolate
 from parser.program import parse_program
 from sim.cut.wire_lag import bowed
 from sim.setup.machine.machine import load_machine
 from sim.table import follow
 from sim.table.history import QUANTITIES
 from sim.table.motion import Moved, motion_of
-from sim.table.ticks import SPACED, Sampling, Ticks, choose_ticks, rhythm
+from sim.table.ticks import MOST_PROBES, SPACED, Sampling, Ticks, _windows, choose_ticks, probes_of, rhythm
 from sim.table.trace import Trace
 
 BEATS = rhythm(MODEL._replace(drive_damping_ratio=0.7))
@@ -151,3 +153,26 @@ def test_at_a_stop_as_much_is_lost_in_chosen_ticks_as_in_fine_ones() -> None:
     apart = np.abs(run.trace.table_um - fine.trace.table_um)
     assert apart[-1] == pytest.approx([0.0, 0.0], abs=0.1)  # µm
     assert apart.max() < 0.5  # µm, where it meets the stop
+
+
+@pytest.mark.parametrize("scenario", ["keyhole", "gear"])
+def test_pulses_that_are_looked_at_are_pulses_of_the_run_and_lie_around_borders(scenario: str) -> None:
+    recording = scenario_recording(scenario)
+    run, steps = recording.run, np.unique(recording.steps.t_s)
+    probes = probes_of(interpolate(run.toolpath), run.plan, None)
+
+    assert (np.diff(probes) >= 0.0).all()
+    nearest = np.minimum(np.searchsorted(steps, probes), len(steps) - 1)
+    assert np.minimum(np.abs(steps[nearest] - probes), np.abs(steps[nearest - 1] - probes)).max() < 1e-9
+    for border_s in run.border_s[1:-1] if scenario == "keyhole" else ():  # the gear has more than are looked at
+        assert np.abs(probes - border_s).min() < 0.1  # s: a step takes some ms
+
+
+def test_of_few_pulses_all_are_looked_at() -> None:
+    assert _windows(MOST_PROBES, np.array([0, 7, MOST_PROBES])) == [(0, MOST_PROBES)]
+    windows = _windows(3 * MOST_PROBES, np.arange(0, 3 * MOST_PROBES + 1, 100))
+    flat = [number for window in windows for number in window]
+    assert flat == sorted(flat)
+    assert flat[0] >= 0
+    assert flat[-1] <= 3 * MOST_PROBES
+    assert sum(past - first for first, past in windows) < 1.5 * MOST_PROBES
