@@ -83,7 +83,8 @@ def _files(folder: Path) -> list[Path]:
         paths = sorted([*folder.glob("*"), *folder.glob("*/*")])
     except OSError as error:
         raise FileUnreadableError("cannot-be-read", file=folder, why=system_message(error)) from None
-    return [path for path in paths if path.is_file() and not path.is_symlink()][:MOST_FILES]
+    own = (path for path in paths if not path.is_symlink() and (path.parent == folder or not path.parent.is_symlink()))
+    return [path for path in own if path.is_file()][:MOST_FILES]
 
 
 def _handed_in(ready: ReadyLesson, marking: Marking, folder: Path, unread: list[Unread]) -> Iterator[_Marked]:

@@ -213,6 +213,17 @@ def test_programs_in_folders_by_pupil_are_marked(tmp_path: Path) -> None:
     assert [(each.name, each.why) for each in result.unread] == [("韩梅梅/5.iso", "no-program")]
 
 
+def test_links_out_of_the_folder_are_not_followed(tmp_path: Path) -> None:
+    outside, handed_in = tmp_path / "outside", tmp_path / "in"
+    outside.mkdir()
+    handed_in.mkdir()
+    put(outside, "a", honest("李雷"))
+    (handed_in / "b.drycut.json").symlink_to(outside / "a.drycut.json")
+    (handed_in / "c").symlink_to(outside, target_is_directory=True)
+
+    assert class_result(ready(NAME), handed_in).marks == ()
+
+
 def test_a_lesson_that_was_changed_does_not_take_the_hand_ins_of_before() -> None:
     lesson = ready(NAME)
     other = lesson._replace(lesson=lesson.lesson._replace(seed=99))
