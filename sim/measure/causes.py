@@ -24,6 +24,7 @@ from parser.geometry.curves import Bools, Floats, Ints
 from parser.toolpath import Toolpath
 from sim.measure.deviation import ROUNDING_UM, Deviation, DeviationMeter, Where, across_um, farthest, summed, where
 from sim.table.motion import Motion
+from sim.table.ticks import BY_BORDER
 from sim.table.trace import Trace
 
 Whole = NDArray[np.int32]
@@ -301,8 +302,6 @@ class Deviations(NamedTuple):
 
 _MEASURED: Final = 2000
 """Pulses at which what the table adds is measured: so many where it lags most across, and by borders of blocks."""
-_BY_BORDER: Final = np.arange(-20, 21)
-"""Pulses around one at which a block ends."""
 
 
 def _largest_of(value: Floats) -> Ints:
@@ -379,7 +378,7 @@ class Meters:
             return NOTHING
         moved = np.hypot(*(probes.table_um - probes.commanded_um).T)
         by_border = np.zeros(len(probes), dtype=bool)
-        around = np.flatnonzero(np.diff(probes.row))[:, None] + _BY_BORDER
+        around = np.flatnonzero(np.diff(probes.row))[:, None] + np.arange(-BY_BORDER, BY_BORDER + 1)
         by_border[np.clip(around.ravel(), 0, len(probes) - 1)] = True
         most = np.union1d(_largest_of(_lag_across_um(self._toolpath, probes)), _largest_of(moved * by_border))
         closest = Trace(probes.t_s[most], probes.commanded_um[most], *2 * (probes.table_um[most],), probes.row[most])

@@ -197,7 +197,7 @@ def _rows_at(border_s: Floats, t_s: Floats) -> Ints:
 MOST_PROBES: Final = 100_000
 """Pulses that the table is looked at, about, besides those at borders of blocks: of more, runs of `_TOGETHER`."""
 _TOGETHER: Final = 2000
-_BY_BORDER: Final = 20
+BY_BORDER: Final = 20
 """Pulses on either side of a border of blocks, where what lags may lie across another block."""
 _MOST_BORDERS: Final = 150
 """Borders that are looked at where not all pulses are."""
@@ -224,8 +224,8 @@ def _windows(count: int, border: Ints) -> list[tuple[int, int]]:
         return [(0, count)]
     first = np.linspace(0, count - _TOGETHER, MOST_PROBES // _TOGETHER).astype(np.int64)
     every = 1 + len(border) // _MOST_BORDERS
-    low = np.concatenate([first, np.maximum(border[::every] - _BY_BORDER, 0)])
-    past = np.concatenate([first + _TOGETHER, np.minimum(border[::every] + _BY_BORDER, count)])
+    low = np.concatenate([first, np.maximum(border[::every] - BY_BORDER, 0)])
+    past = np.concatenate([first + _TOGETHER, np.minimum(border[::every] + BY_BORDER, count)])
     joined = _joined(np.stack([low, past], axis=1).astype(np.float64))
     return [(int(begin), int(end)) for begin, end in joined.tolist() if end > begin]
 
