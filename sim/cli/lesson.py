@@ -61,7 +61,7 @@ def mark(file: Path, folder: Path, output: Path | None, as_json: bool) -> None:
     drycut class mark lesson.toml handed-in/ -o marks/
     drycut class mark lesson.toml handed-in/ --json
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
-    from sim.jobs.class_marks import class_result, marking_of, marks_into
+    from sim.jobs.class_marks import class_result, marks_into
     from sim.jobs.lessons import lesson_of
     from sim.show.terminal.printer import say, write
     from sim.teach.marks_document import marks_text
@@ -71,7 +71,7 @@ def mark(file: Path, folder: Path, output: Path | None, as_json: bool) -> None:
     ready = lesson_of(file)
     result = class_result(ready, folder)
     if output is not None and result.marks:
-        marks_into(result, marking_of(ready), output)
+        marks_into(result, output)
     if as_json:
         write(marks_text(result), "json")
     _tell(result, folder, quiet=as_json)

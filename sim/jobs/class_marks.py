@@ -71,7 +71,7 @@ def class_result(ready: ReadyLesson, folder: Path) -> ClassResult:
         hand_ins=hand_ins,
         marks=marks,
         common=tuple(commonest(marks)),
-        alike=tuple(alike(marking, hand_ins)),
+        alike=tuple(alike(marking, hand_ins, marks)),
         unread=tuple(unread),
     )
 
@@ -157,25 +157,28 @@ def _program(ready: ReadyLesson, at: int, path: Path) -> _Program | None:
 
 def _of_programs(marking: Marking, name: str, programs: Mapping[int, _Program]) -> _Marked:
     """A pupil by what his programs earn; all other exercises are not answered."""
+    shares = tuple(
+        (programs[at].share,) if at in programs else (0.0,) * rules.tasks for at, rules in enumerate(marking.rules)
+    )
     points = tuple(most * programs[at].share if at in programs else 0.0 for at, most in enumerate(marking.points))
     answers = tuple(
         ((programs[at].text,),) if at in programs else ((),) * rules.tasks for at, rules in enumerate(marking.rules)
     )
     none = (0.0,) * len(points)
-    hand_in = HandIn(name, "", marking.seed_of(name, ""), answers, points, none)
+    hand_in = HandIn(name, "", name, marking.seed_of(name), answers, points, none)
     slips = tuple(Slip(at, part) for at, program in programs.items() for part in program.wrong)
-    return _Marked(hand_in, PupilMark(name, "", points, none, slips, is_changed=False, is_of_other=False))
+    return _Marked(
+        hand_in, PupilMark(name, "", hand_in.seed, shares, points, none, slips, is_changed=False, is_of_other=False)
+    )
 
 
-def marks_into(result: ClassResult, marking: Marking, folder: Path) -> list[str]:
+def marks_into(result: ClassResult, folder: Path) -> list[str]:
     """Write pages and sheets of a class into a folder, all or none; gives their names."""
     files = tuple(f"pupil-{number:04}.html" for number in range(1, len(result.marks) + 1))
     with staged(folder, [*FIXED, *files]) as stage:
         (stage / FIXED[0]).write_text(class_page(result, files), "utf-8")
         for number, file in enumerate(files):
-            mark = result.marks[number]
-            page = pupil_page(result, number, marking.seed_of(mark.name, mark.group))
-            (stage / file).write_text(page, "utf-8")
+            (stage / file).write_text(pupil_page(result, number), "utf-8")
         rows = list(_rows(result))
         (stage / FIXED[1]).write_text(_csv(rows), "utf-8", newline="")
         (stage / FIXED[2]).write_bytes(sheet_of(rows, _common_rows(result)))

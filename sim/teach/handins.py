@@ -53,7 +53,9 @@ class HandIn(NamedTuple):
     Attributes
     ----------
     name, group
-        Of the pupil, and of the class.
+        Of the pupil, and of the class, for people to read.
+    who
+        Both as they were typed: the page chooses its numbers by these letters, of which some may not be printable.
     seed
         By which the numbers of the tasks were chosen, as the file has it.
     answers
@@ -66,6 +68,7 @@ class HandIn(NamedTuple):
 
     name: str
     group: str
+    who: str
     seed: int
     answers: tuple[tuple[tuple[str, ...], ...], ...]
     points: tuple[float, ...]
@@ -89,9 +92,11 @@ def read_hand_in(data: bytes, lesson: str, tasks: tuple[int, ...]) -> HandIn:
     seed = content.get("seed")
     if not isinstance(seed, int) or isinstance(seed, bool):
         raise HandInError("no-hand-in")
+    name, group = content.get("name"), content.get("group")
     return HandIn(
-        name=_name(content.get("name")),
-        group=_name(content.get("group")),
+        name=_name(name),
+        group=_name(group),
+        who=f"{name} {group}",
         seed=seed,
         answers=_answers(content.get("answers"), tasks),
         points=_numbers(content.get("points"), len(tasks), _MOST_SECONDS),

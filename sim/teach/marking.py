@@ -42,6 +42,10 @@ class PupilMark(NamedTuple):
     ----------
     name, group
         As handed in.
+    seed
+        By which the numbers of the tasks are chosen, whatever the file says.
+    shares
+        Of each task of each exercise, from 0 to 1.
     points
         Of each exercise.
     seconds
@@ -56,6 +60,8 @@ class PupilMark(NamedTuple):
 
     name: str
     group: str
+    seed: int
+    shares: tuple[tuple[float, ...], ...]
     points: tuple[float, ...]
     seconds: tuple[float, ...]
     slips: tuple[Slip, ...]
@@ -126,26 +132,34 @@ class Marking(NamedTuple):
     points: tuple[float, ...]
     rules: tuple[Rules, ...]
 
-    def seed_of(self, name: str, group: str) -> int:
-        """The seed of a pupil's sitting, as the page chooses it."""
-        return seed_of(f"{self.seed} {name} {group}" if self.numbers == "own" else f"{self.seed}")
+    def seed_of(self, who: str) -> int:
+        """The seed of a pupil's sitting by name and class as typed, a blank between, as the page chooses it."""
+        return seed_of(f"{self.seed} {who}" if self.numbers == "own" else f"{self.seed}")
 
 
 def marked(marking: Marking, hand_in: HandIn) -> PupilMark:
     """A hand-in, marked by the numbers that its name and class have."""
-    seed = marking.seed_of(hand_in.name, hand_in.group)
-    points, slips = [], list[Slip]()
+    seed = marking.seed_of(hand_in.who)
+    shares, points, slips = [], [], list[Slip]()
     for at, (rules, most) in enumerate(zip(marking.rules, marking.points, strict=True)):
         own = seed_of_task(seed, at)
         answers = hand_in.answers[at]
-        shares = [_share(rules, own, task, attempts) for task, attempts in enumerate(answers)]
-        points.append(most * sum(shares) / rules.tasks)
+        shares.append(tuple(_share(rules, own, task, attempts) for task, attempts in enumerate(answers)))
+        points.append(most * sum(shares[-1]) / rules.tasks)
         slips += [
             Slip(at, what) for task, attempts in enumerate(answers) for what in _slips(rules, own, task, attempts)
         ]
     claimed = np.abs(np.array(points) - np.array(hand_in.points)).max(initial=0.0) > _CLAIMED_WITHIN
     return PupilMark(
-        hand_in.name, hand_in.group, tuple(points), hand_in.seconds, tuple(slips), bool(claimed), hand_in.seed != seed
+        name=hand_in.name,
+        group=hand_in.group,
+        seed=seed,
+        shares=tuple(shares),
+        points=tuple(points),
+        seconds=hand_in.seconds,
+        slips=tuple(slips),
+        is_changed=bool(claimed),
+        is_of_other=hand_in.seed != seed,
     )
 
 
@@ -198,17 +212,16 @@ def commonest(marks: Sequence[PupilMark]) -> list[tuple[Slip, int]]:
     return sorted(counts.items(), key=lambda item: (-item[1], item[0]))
 
 
-def alike(marking: Marking, hand_ins: Sequence[HandIn]) -> list[Alike]:
+def alike(marking: Marking, hand_ins: Sequence[HandIn], marks: Sequence[PupilMark]) -> list[Alike]:
     """Pupils with at least three answers that are wrong in the same letters, most of these first.
 
     Right answers may be the same. Of two who were asked by the same numbers, or for the same program, it counts what
     both answered wrongly and in the same letters; an answer that more than a tenth of a class has in common is a
-    common slip, and counts for nothing.
+    common slip, and counts for nothing. `marks` are those of the hand-ins, in the same order.
     """
     wrong: dict[tuple[int, int, str], list[int]] = defaultdict(list)
-    for pupil, hand_in in enumerate(hand_ins):
-        seed = marking.seed_of(hand_in.name, hand_in.group)
-        for at, task, text in _wrong(marking, hand_in, seed):
+    for pupil, (hand_in, mark) in enumerate(zip(hand_ins, marks, strict=True)):
+        for at, task, text in _wrong(marking, hand_in, mark):
             wrong[at, task, text].append(pupil)
     most = max(2, len(hand_ins) // 10)
     pairs: Counter[tuple[int, int]] = Counter()
@@ -224,13 +237,17 @@ def _is_typed(rules: Rules) -> bool:
     return rules.kind in {"block", "program"} or rules.ask in {"end", "time"}
 
 
-def _wrong(marking: Marking, hand_in: HandIn, seed: int) -> Iterator[tuple[int, int, str]]:
-    """Attempts that are wrong: exercise and task, from 0, and the attempt without blanks."""
+def _wrong(marking: Marking, hand_in: HandIn, mark: PupilMark) -> Iterator[tuple[int, int, str]]:
+    """Attempts that are wrong: exercise and task, from 0, and the attempt without blanks.
+
+    What a task with one attempt earned stands in its mark: a program from a folder may be of any dialect.
+    """
     for at, (rules, answers) in enumerate(zip(marking.rules, hand_in.answers, strict=True)):
-        own = seed_of_task(seed, at)
+        own = seed_of_task(mark.seed, at)
         if not _is_typed(rules):
             continue
         for task, attempts in enumerate(answers):
             for text in dict.fromkeys(attempts):
-                if _share(rules, own, task, (text,)) < 1.0:
+                earned = mark.shares[at][task] if len(attempts) == 1 else _share(rules, own, task, (text,))
+                if earned < 1.0:
                     yield at, task, "".join(text.split())

@@ -52,7 +52,7 @@ def class_served() -> str:
 
 
 def pupil() -> str:
-    return pupil_page(marked_class(12), 3, 7)
+    return pupil_page(marked_class(12), 3)
 
 
 def entry() -> str:

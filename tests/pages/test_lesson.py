@@ -106,6 +106,21 @@ def test_marks_by_the_page_are_those_that_marking_gives(open_page: OpenPage, nam
         assert (mark.is_changed, mark.is_of_other) == (False, False)
 
 
+@pytest.mark.parametrize("typed", ["王😀", "Li\u00a0Lei", "王\u200b小", "\u200fعلي", "a\u202eb", "x\ufeffy", "e\u0301"])
+def test_the_numbers_of_any_name_are_those_that_marking_chooses(open_page: OpenPage, typed: str) -> None:
+    name = "1-first-blocks"
+    shown = open_page(page(name)).page
+    shown.fill("#name", typed)
+    shown.fill("#class", f"{typed}1")
+    shown.click("#start button")
+    shown.evaluate("document.querySelector('#end').hidden = false")
+    with shown.expect_download() as saved:
+        shown.locator("#save").click()
+    mark = marked(marking_of(ready(name)), read(json.loads(Path(saved.value.path()).read_text("utf-8")), name))
+
+    assert not mark.is_of_other
+
+
 def begun(open_page: OpenPage, name: str, **how: Any) -> "Page":
     shown = open_page(page(name), **how).page
     shown.fill("#name", "王小明")
@@ -121,7 +136,7 @@ def step(page_: "Page") -> "Locator":
 
 def test_a_lesson_is_done_by_keyboard_alone_and_handed_in(open_page: OpenPage, tmp_path: Path) -> None:
     name = "1-first-blocks"
-    seed = marking_of(ready(name)).seed_of("王小明", "线切割 1 班")
+    seed = marking_of(ready(name)).seed_of("王小明 线切割 1 班")
     shown = open_page(page(name), lang="zh").page
     shown.keyboard.press("Tab")  # the language
     for text in ("王小明", "线切割 1 班"):

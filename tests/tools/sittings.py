@@ -46,7 +46,7 @@ def page(name: str) -> str:
 def hand_in_of(lesson: ReadyLesson, name: str, skill: float, group: str = "1 班") -> dict[str, Any]:
     """What a pupil hands in who answers right with a chance of `skill`; its points are to be filled in."""
     marking, chance = marking_of(lesson), Random(name)
-    seed = marking.seed_of(name, group)
+    seed = marking.seed_of(f"{name} {group}")
     answers = [
         [
             _attempts(right_answer(lesson, at, task, seed_of_task(seed, at)), chance, skill)

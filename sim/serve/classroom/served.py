@@ -19,7 +19,6 @@ from starlette.responses import HTMLResponse, JSONResponse, Response
 from starlette.routing import Route
 
 from sim.base.files import scratch
-from sim.jobs.class_marks import marking_of
 from sim.make.lessons import ReadyLesson
 from sim.serve.classroom.hand_ins import HandIns
 from sim.serve.classroom.pupils import Doors, new_code, pupils_app, taken
@@ -152,9 +151,7 @@ class _Teacher:
         at = int(request.path_params["number"]) - 1
         if not 0 <= at < len(result.marks):
             return Response(status_code=404)
-        mark = result.marks[at]
-        seed = marking_of(self._ready).seed_of(mark.name, mark.group)
-        return HTMLResponse(pupil_page(result, at, seed, "./"))
+        return HTMLResponse(pupil_page(result, at, "./"))
 
 
 async def _run(servers: list[tuple[Server, socket.socket]], life: Life, ready: Callable[[], None]) -> None:

@@ -12,7 +12,7 @@ from sim.show.html.environment import rendered
 from sim.show.texts import bilingual
 from sim.teach.marking import ClassResult, PupilMark, Slip
 from sim.teach.plain.answers import WAYS, end_question, shape_at, step_question
-from sim.teach.plain.rules import Rules, task_share
+from sim.teach.plain.rules import Rules
 from sim.teach.plain.tasks import Task, seed_of_task, task_of
 
 _ASSETS: Final = Path(__file__).with_name("assets")
@@ -55,8 +55,8 @@ def class_page(result: ClassResult, files: tuple[str, ...], door: RoomDoor | Non
     )
 
 
-def pupil_page(result: ClassResult, number: int, seed: int, back: str = "index.html") -> str:
-    """The page of a pupil, by his number from 0, and the seed of his sitting: answers, what they earned, what is right.
+def pupil_page(result: ClassResult, number: int, back: str = "index.html") -> str:
+    """The page of a pupil, by his number from 0: answers, what they earned, what is right.
 
     `back` leads to the page of the class.
     """
@@ -66,7 +66,7 @@ def pupil_page(result: ClassResult, number: int, seed: int, back: str = "index.h
             "title": result.exercises[at],
             "points": result.points[at],
             "earned": mark.points[at],
-            "tasks": _tasks(rules, seed_of_task(seed, at), hand_in.answers[at]),
+            "tasks": _tasks(rules, seed_of_task(mark.seed, at), hand_in.answers[at], mark.shares[at]),
             "slips": [slip_text(result, slip) for slip in dict.fromkeys(mark.slips) if slip.exercise == at],
         }
         for at, rules in enumerate(result.rules)
@@ -106,15 +106,17 @@ def slip_text(result: ClassResult, slip: Slip) -> Bilingual:
     return bilingual(f"class.ask-{slip.what}")
 
 
-def _tasks(rules: Rules, seed: int, answers: tuple[tuple[str, ...], ...]) -> list[dict[str, Any]]:
+def _tasks(
+    rules: Rules, seed: int, answers: tuple[tuple[str, ...], ...], shares: tuple[float, ...]
+) -> list[dict[str, Any]]:
     return [
         {
             "ask": _question(rules, seed, task),
             "attempts": [_lines(text) for text in attempts],
-            "percent": round(100.0 * task_share(rules, seed, task, list(attempts))),
+            "percent": round(100.0 * share),
             "right": _right(rules, seed, task),
         }
-        for task, attempts in enumerate(answers)
+        for task, (attempts, share) in enumerate(zip(answers, shares, strict=True))
     ]
 
 

@@ -68,7 +68,7 @@ def test_a_file_handed_on_under_another_name_is_told(tmp_path: Path) -> None:
     hand_in = honest("李雷", 1.0)
     put(tmp_path, "a", hand_in)
     put(tmp_path, "b", hand_in | {"name": "韩梅梅"})
-    put(tmp_path, "c", hand_in | {"name": "韩梅", "seed": marking_of(ready(NAME)).seed_of("韩梅", "1 班")})
+    put(tmp_path, "c", hand_in | {"name": "韩梅", "seed": marking_of(ready(NAME)).seed_of("韩梅 1 班")})
 
     by_name = {mark.name: mark for mark in class_result(ready(NAME), tmp_path).marks}
 
@@ -163,7 +163,7 @@ def test_what_a_hand_in_says_does_nothing(tmp_path: Path) -> None:
     (handed_in / "<b>.drycut.json").write_text("{}", "utf-8")
 
     result = class_result(ready(NAME), handed_in)
-    names = marks_into(result, marking_of(ready(NAME)), marks)
+    names = marks_into(result, marks)
 
     assert sorted(path.name for path in marks.iterdir()) == sorted(names)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["in", "marks"]
@@ -187,7 +187,7 @@ def test_the_same_class_gives_the_same_bytes(tmp_path: Path) -> None:
         put(tmp_path / "in", f"{number}", honest(f"学生{number}"))
     for name in ("one", "two"):
         result = class_result(ready(NAME), tmp_path / "in")
-        marks_into(result, marking_of(ready(NAME)), tmp_path / name)
+        marks_into(result, tmp_path / name)
 
     for path in (tmp_path / "one").iterdir():
         assert path.read_bytes() == (tmp_path / "two" / path.name).read_bytes(), path.name
@@ -211,6 +211,22 @@ def test_programs_in_folders_by_pupil_are_marked(tmp_path: Path) -> None:
     assert points["李雷"][4] == pytest.approx(25.0 * 14 / 15)
     assert points["赵六"][4] == 25.0  # there is but one program to write
     assert [(each.name, each.why) for each in result.unread] == [("韩梅梅/5.iso", "no-program")]
+
+
+OPENING_ISO = "G91 G92 X0 Y0\nG01 X4900\nG01 Y2900\nG01 X-9800\nG01 Y-5800\nG01 X9800\nG01 Y2900\nG01 X-4900\nM02\n"
+
+
+def test_the_page_of_a_pupil_shows_what_his_program_earned_in_any_dialect(tmp_path: Path) -> None:
+    (tmp_path / "in" / "王小明").mkdir(parents=True)
+    (tmp_path / "in" / "王小明" / "5.iso").write_text(OPENING_ISO, "utf-8")
+
+    result = class_result(ready(NAME), tmp_path / "in")
+    marks_into(result, tmp_path / "marks")
+
+    (mark,) = result.marks
+    assert mark.points[4] == 25.0
+    text = (tmp_path / "marks" / "pupil-0001.html").read_text("utf-8")
+    assert re.findall(r'<td class="number (?:right|wrong)">([^<]*)</td>', text)[-1] == "100 %"
 
 
 def test_links_out_of_the_folder_are_not_followed(tmp_path: Path) -> None:

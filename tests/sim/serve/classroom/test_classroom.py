@@ -196,7 +196,7 @@ def test_codes_cannot_be_tried_out() -> None:
 
 def test_names_make_no_way_out_of_the_folder(tmp_path: Path) -> None:
     for name in ("../../x", "a/b", "C:\\x", ".", "..", "x.exe", "a\tb", "*"):
-        found = file_name(HandIn(name, name, 1, (), (), ()))
+        found = file_name(HandIn(name, name, name, 1, (), (), ()))
         assert Path(found).name == found
         assert not found.startswith(".")
     hand_ins = HandIns(ready(NAME), tmp_path / "in")
