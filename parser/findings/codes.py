@@ -139,6 +139,7 @@ _codes = {
     "3B606": FindingCode(Severity.WARNING, check=None, placed=True, spoils=True),
     "3B607": FindingCode(Severity.WARNING, check=None, spoils=True),
     "3B608": FindingCode(Severity.WARNING, check=None),
+    "3B609": FindingCode(Severity.WARNING, check=None, spoils=True),
     "GEC401": FindingCode(Severity.WARNING, None),
     "GEC402": FindingCode(Severity.WARNING, None),
     "GEC403": FindingCode(Severity.WARNING, None),

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from parser.findings.errors import Message, ProgramError
-from sim.cli.scenario_options import overridden, overrides_of, refused, scenario_options
+from sim.cli.scenario_options import overridden, overrides_of, refused, scenario_options, spark_options
 from sim.cli.spoken import Spoken, spoken, words
 from sim.cli.spoken.values import DecimalNumber, FilePath, WholeNumber
 
@@ -71,6 +71,7 @@ class Seconds(DecimalNumber):
 @click.option("--size", type=FrameSize(), default="1280x720", show_default=True)
 @click.option("--theme", type=click.Choice(["light", "dark"]), default="light", show_default=True)
 @scenario_options
+@spark_options
 def replay(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     path: Path,
     output: Path | None,

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import click
 
 from parser.findings.errors import Message, ProgramError
-from sim.cli.scenario_options import Overrides, overridden, overrides_of, refused, scenario_options
+from sim.cli.scenario_options import Overrides, overridden, overrides_of, refused, scenario_options, spark_options
 from sim.cli.spoken import Spoken, spoken, words
 from sim.cli.spoken.values import FilePath, offer_files
 from sim.cli.spread import Spread, pool_of, spread_options
@@ -72,6 +72,7 @@ def run_shop(names: Sequence[str], output: Path | None, spread: Spread, options:
 )
 @spread_options
 @scenario_options
+@spark_options
 @click.option(
     "--card-log",
     type=FilePath(path_type=Path, dir_okay=False),
@@ -100,6 +101,7 @@ def run(  # noqa: PLR0913 - click hands over each option by its name
     drycut run contour.3b --offset 0.18mm,0.12mm,0.1mm --side right
     drycut run die.iso --dialect robofil --offset D0=0.11mm
     drycut run part.3b --kerf --drawing part.dxf --tolerance 5um
+    drycut run part.3b --sparks --seed 7
     drycut run programs/ 'jigs/*.4b' -o out/ --jobs 4
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     overrides, spread, files = overrides_of(options), Spread(jobs, scheduler), _Files(output, card_log, trace)

@@ -17,7 +17,7 @@ from parser.findings.errors import ProgramError, SettingsError
 from parser.units import mm
 from sim.cli.options import READ_WITH, Lengths, OrRegister, offsets_of, setting_options, taken_settings, with_options
 from sim.cli.spoken import spoken, words
-from sim.cli.spoken.values import FilePath, offer_machines
+from sim.cli.spoken.values import FilePath, WholeNumber, offer_machines
 from sim.setup.part import (
     CORNERS,
     FIT,
@@ -77,6 +77,13 @@ _OPTIONS = (
 )
 
 
+spark_options = with_options(
+    (
+        click.option("--sparks", is_flag=True),
+        click.option("--seed", type=WholeNumber(0, 2**31 - 1), metavar="N"),
+    )
+)
+"""Gives a command that runs a program the options of a cut under sparks, which are of `Overrides` too."""
 scenario_options = with_options(_OPTIONS)
 """Gives a command the options that take the place of a scenario's own values: those of `Overrides`."""
 
@@ -114,6 +121,8 @@ class Overrides(NamedTuple):
     side: str | None = None
     drawing: Path | None = None
     comparison: Mapping[str, Any] = MappingProxyType({})
+    sparks: bool = False
+    seed: int | None = None
 
 
 def overrides_of(options: dict[str, Any]) -> Overrides:
@@ -141,6 +150,8 @@ def overridden(path: Path, options: Overrides) -> "Scenario":
         offset=_offset(scenario.offset, offsets.plain, options.side),
         drawing=_drawing(scenario.drawing, options),
     )
+    if options.sparks or options.seed is not None:
+        scenario = scenarios.under_sparks(scenario, options.seed)
     return _stepping_by(scenario, options.interpolator)
 
 

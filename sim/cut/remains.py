@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from functools import cached_property
 
+from parser.geometry.curves import Floats
 from parser.program import Program
 from parser.shape.contours import Contour
 from parser.toolpath import Toolpath
@@ -54,25 +55,25 @@ class Remains:
         return self
 
 
-def remains_of(program: Program, trace: Trace, contours: tuple[Contour, ...], scenario: Scenario) -> Remains:
-    """Kerf and pieces by where the wire really was; RegionError where they could not be worked out."""
+def remains_of(
+    program: Program, trace: Trace, contours: tuple[Contour, ...], scenario: Scenario, reach_um: Floats
+) -> Remains:
+    """Kerf and pieces by where the wire really was; RegionError where they could not be worked out.
+
+    `reach_um` (n,) is half the width of the kerf in each row.
+    """
     toolpath = program.toolpath
     with cut_by_blocks(1, len(toolpath)):
-        kerf = kerf_of(toolpath, trace, contours, wire_rows(toolpath, scenario).reach_um)
+        kerf = kerf_of(toolpath, trace, contours, reach_um, wire_rows(toolpath, scenario).reach_um)
         return Remains(toolpath, scenario, kerf, _pieces(kerf, toolpath, scenario))
 
 
 def pieces_left(
-    remains: Remains | None, program: Program, trace: Trace, contours: tuple[Contour, ...], scenario: Scenario
+    program: Program, trace: Trace, contours: tuple[Contour, ...], scenario: Scenario, reach_um: Floats
 ) -> Pieces:
-    """Pieces of a run: those of its remains, or worked out here where nobody asked for the remains.
-
-    RegionError where they could not be worked out.
-    """
-    if remains is not None:
-        return remains.pieces
+    """Pieces of a cut of which nobody asked for the remains; RegionError where they could not be worked out."""
     with cut_by_blocks(1, len(program.toolpath)):
-        kerf = kerf_of(program.toolpath, trace, contours, wire_rows(program.toolpath, scenario).reach_um)
+        kerf = kerf_of(program.toolpath, trace, contours, reach_um)
         return _pieces(kerf, program.toolpath, scenario)
 
 

@@ -244,7 +244,7 @@ def sizes_of(toolpath: Toolpath, kerf: Kerf, pieces: Pieces, work_um: Outline | 
     if not shapes:
         return Sizes((), (), ())
     edges = kept_edges(kerf, shapes)
-    nominal = nominal_parts(toolpath, stock_of(kerf, work_um), shapes, edges, kerf.reach_um)
+    nominal = nominal_parts(toolpath, stock_of(kerf, work_um), shapes, edges, kerf.usual_um)
     edges = edges.picked(lie_on(shapely.get_rings(nominal.parts_um).tolist(), edges.nominal_um))
     return Sizes(
         tuple(_boxes(shapes, nominal, _widest(edges, spread_um, len(shapes)))),
@@ -281,7 +281,7 @@ def _box(outline: shapely.Polygon) -> tuple[Point, Point]:
 def _radii(toolpath: Toolpath, kerf: Kerf, edges: KeptEdges, spread_um: Floats) -> Iterator[RadiusSize]:
     """Radii of 10 µm and more, of the arcs with 30° and more of a kept edge."""
     boss = np.sign(toolpath.sweep_rad[edges.row]) == edges.side
-    nominal = toolpath.radius_um[edges.row] + np.where(boss, -1.0, 1.0) * kerf.reach_um[edges.row]
+    nominal = toolpath.radius_um[edges.row] + np.where(boss, -1.0, 1.0) * kerf.usual_um[edges.row]
     first = runs_of(edges.row, edges.side)
     number = np.diff(first, append=len(edges.row))
     swept = np.abs(toolpath.sweep_rad[edges.row[first]]) * _shares(kerf.edges, edges, first, number)

@@ -34,6 +34,7 @@ from sim.measure.causes import BlockSteps, Deviations
 from sim.measure.compare.result import Comparison
 from sim.measure.factor import Interval, factor_of, interval_of
 from sim.measure.passes import PassFigures
+from sim.process.cut import ProcessRun
 from sim.run.prepare import Prepared, time_spread_s
 from sim.setup.expectations import Missed
 from sim.setup.machine.machine import Machine, MeasuredValue, measured_values
@@ -169,6 +170,10 @@ class DryRun:
         Which blocks make each pass over an edge, and what it came to, one behind the other.
     border_s
         (n + 1,) float64, planned times at which the blocks begin, and the end of the last one.
+    process
+        What came of the cut under sparks; None where nobody asked for that.
+    reach_um
+        (n,) float64, half the width of the kerf in each row.
     remains
         Kerf, pieces and sizes; None where nobody asked for them or for a drawing.
     comparison
@@ -199,6 +204,8 @@ class DryRun:
     passes: Passes
     pass_figures: tuple[PassFigures, ...]
     border_s: Floats
+    process: ProcessRun | None
+    reach_um: Floats
     remains: Remains | None
     comparison: Comparison | None
     findings: tuple[Finding, ...]

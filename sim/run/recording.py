@@ -105,8 +105,10 @@ def pieces_of_run(run: DryRun) -> Pieces:
     """
     if run.remains is None and _passes(run) > MOST_PASSES:
         return NO_PIECES
+    if run.remains is not None:
+        return run.remains.pieces
     try:
-        return pieces_left(run.remains, run.program, run.cut, run.contours, run.scenario)
+        return pieces_left(run.program, run.cut, run.contours, run.scenario, run.reach_um)
     except RegionError:
         return NO_PIECES
 

@@ -16,6 +16,7 @@ from controller.stepping.pulses import Pulses
 from parser.dialect.reader import in_codes
 from parser.drawing.model import Drawing
 from parser.findings.findings import Finding, WithoutOffset, file_order, telling
+from parser.geometry.curves import Floats
 from parser.program import Program
 from parser.shape.contours import Contour, find_contours
 from parser.shape.passes import Pass, find_passes
@@ -33,6 +34,7 @@ from sim.measure.kerf_fit import offset_findings, tolerance_findings
 from sim.measure.passes import PassFigures, figures_of_passes, wire_taken
 from sim.run.dryrun import DryRun, Ending, PulseSink, motion_to_end, trip_of
 from sim.run.prepare import Prepared, prepare
+from sim.run.sparks import state_of, stop_findings, under_sparks, work_of
 from sim.setup.part import DrawingTarget
 from sim.setup.scenario import Scenario
 from sim.table.losses import loss_findings
@@ -69,12 +71,15 @@ def left_of(  # noqa: PLR0913, PLR0917 - all that is known of the cut, and whom 
     contours: tuple[Contour, ...],
     scenario: Scenario,
     drawing: Drawing | None,
+    reach_um: Floats,
     progress: Progress,
     *,
     is_whole: bool,
     measured: bool,
 ) -> CutResult:
     """What a cut leaves, as far as the scenario asks for it; `measured`, with all its sizes and plays.
+
+    `reach_um` (n,) is half the width of the kerf in each row.
 
     A run that is not whole, since it ended early, is not held against the drawing: all that differs comes of that.
     """
@@ -83,7 +88,7 @@ def left_of(  # noqa: PLR0913, PLR0917 - all that is known of the cut, and whom 
         return CutResult(None, None, [], CheckState(_REMAINS, "not asked", "reason-no-kerf"))
     progress("kerf", 0, 1)
     try:
-        remains = remains_of(program, cut, contours, scenario)
+        remains = remains_of(program, cut, contours, scenario, reach_um)
         remains = remains.measured() if measured else remains
     except RegionError as error:
         state = CheckState(_REMAINS, "incomplete", "reason-no-region")
@@ -165,8 +170,13 @@ def run_along(
     border_s = plan.border_s(ready.steps.along_um)
     block_time_s = np.diff(np.minimum(border_s, ended.t_s if ended else plan.duration_s))
     figures = figures_of_passes(toolpath, passes, block_time_s, wire_taken(toolpath, plan, cut), wire.reach_um)
-    left = left_of(program, cut, contours, scenario, drawing, progress, is_whole=ended is None, measured=measured)
+    process = under_sparks(work_of(toolpath, ready.steps, scenario, figures, wire.reach_um), scenario)
+    reach_um = wire.reach_um if process is None else wire.reach_um + process.wider_um
+    is_whole = ended is None
+    left = left_of(program, cut, contours, scenario, drawing, reach_um, progress, is_whole=is_whole, measured=measured)
     fits = () if scenario.technology is None else tuple(_fits(ready, scenario, figures, wire, left.comparison))
+    stops = () if process is None else tuple(stop_findings(program, process))
+    states = [left.state] if process is None else [left.state, state_of(process)]
     return DryRun(
         program=program,
         scenario=scenario,
@@ -184,11 +194,13 @@ def run_along(
         passes=passes,
         pass_figures=figures,
         border_s=border_s,
+        process=process,
+        reach_um=reach_um,
         remains=left.remains,
         comparison=left.comparison,
-        findings=_in_order(ready, [*_met(program, scenario, moved, trace, contours), *left.findings, *fits]),
+        findings=_in_order(ready, [*_met(program, scenario, moved, trace, contours), *left.findings, *fits, *stops]),
         checked=ready.findings,
-        coverage=ready.coverage._replace(checks=(*ready.coverage.checks, left.state)),
+        coverage=ready.coverage._replace(checks=(*ready.coverage.checks, *states)),
     )
 
 

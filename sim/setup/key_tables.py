@@ -18,6 +18,7 @@ from sim.setup.key_words import setting_text, words, words_of
 from sim.setup.machine import machine
 from sim.setup.making import PROGRAM
 from sim.setup.quiz import QUIZ
+from sim.setup.spark import EVENT, SPARK
 from sim.setup.toml.keys import Key, Section
 from sim.setup.toml.kinds import Number, OneOf
 
@@ -70,7 +71,8 @@ def technology_schema() -> dict[str, Any]:
     return schema
 
 
-_MAY_BE_LEFT_OUT: Final = ("arm",)
+_OWN_TABLES: Final = (QUIZ, SPARK, EVENT)
+_MAY_BE_LEFT_OUT: Final = ("arm", "spark")
 
 
 def section_schema(section: Section) -> dict[str, Any]:
@@ -105,6 +107,8 @@ DOCUMENTS: tuple[tuple[Language, Path], ...] = (
     ("zh", Path("docs/time.zh.md")),
     ("en", Path("docs/technology.md")),
     ("zh", Path("docs/technology.zh.md")),
+    ("en", Path("docs/sparks.md")),
+    ("zh", Path("docs/sparks.zh.md")),
     ("en", Path("docs/accept.md")),
     ("zh", Path("docs/accept.zh.md")),
 )
@@ -127,7 +131,7 @@ def renewed(document: str, language: Language) -> str:
 
 
 def _tables(language: Language) -> dict[str, str]:
-    of_machine = [(section, key) for section in machine.SECTIONS for key in section.keys]
+    of_machine = [(section, key) for section in machine.SECTIONS if section is not SPARK for key in section.keys]
     return {
         "scenario": _table(_scenario_rows(), language),
         "quiz": _table((_row(QUIZ, key) for key in QUIZ.keys), language),
@@ -135,6 +139,8 @@ def _tables(language: Language) -> dict[str, str]:
         "machine that may be left out": _table((_row(*of) for of in of_machine if not _is_needed(*of)), language),
         "limits": _table((_row(section, key) for section in limits.SECTIONS for key in section.keys), language),
         "technology": _table((_row(section, key) for section in technology.SECTIONS for key in section.keys), language),
+        "sparks": _table((_row(SPARK, key) for key in SPARK.keys), language),
+        "event": _table((_row(EVENT, key) for key in EVENT.keys), language),
         "shop": _table((_row(section, key) for section in shop.SECTIONS for key in section.keys), language),
     }
 
@@ -145,7 +151,7 @@ def _scenario_rows() -> Iterator[KeyRow]:
         if section.name in _words("sections"):
             texts = {of: setting_text(text) for of, text in _words("sections")[section.name].items()}
             yield KeyRow(setting_text(f"`{section.header}`"), **texts)
-        if section is not QUIZ:
+        if section not in _OWN_TABLES:
             yield from (_row(section, key) for key in section.keys)
 
 

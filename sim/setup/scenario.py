@@ -43,6 +43,7 @@ from sim.setup.part import (
 )
 from sim.setup.quiz import QUIZ, Question, read_quiz
 from sim.setup.settable import INTERPOLATOR, KERF, MAY_STAY_OPEN, PAST_STOP, with_settings
+from sim.setup.spark import EVENT, SPARK, Event, Spark, read_events, read_spark
 from sim.setup.technology import (
     Choice,
     PassTechnology,
@@ -116,6 +117,10 @@ class Scenario:
     technology, material
         What the wire does in a material, and which that is; the only one that it knows where None. The gap and the lag
         of `wire` are then those of the first pass.
+    spark
+        Sparks under which it is cut too (docs/sparks.md); None where nobody asked for that.
+    events
+        What happens in that cut.
     machine_by_default
         Whether nobody named a machine. A file that is written names it, and makes the same run all the same.
     """
@@ -146,6 +151,8 @@ class Scenario:
     expect: tuple[Expectation, ...] = ()
     technology: Technology | None = None
     material: str | None = None
+    spark: Spark | None = None
+    events: tuple[Event, ...] = ()
     machine_by_default: bool = field(default=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -248,6 +255,11 @@ class Scenario:
         return from_mm(x), from_mm(y)
 
 
+def without_sparks(scenario: Scenario) -> Scenario:
+    """The scenario for a run of its table alone: no sparks, no kerf, no drawing."""
+    return replace(scenario, spark=None, events=(), kerf=False, drawing=None, expect=())
+
+
 def _usual_names() -> tuple[str, ...]:
     """Names that programs in scenario folders go by, the most usual first."""
     return tuple(f"program{suffix}" for suffix in suffixes())
@@ -277,7 +289,7 @@ TOP = Section(
     ),
     form="top",
 )
-SECTIONS = (TOP, WIRE, WORK, SHEET, OFFSET, PASS, DRAWING, PROGRAM, LAYER, CLAMPS, QUIZ, EXPECT)
+SECTIONS = (TOP, WIRE, WORK, SHEET, OFFSET, PASS, DRAWING, PROGRAM, LAYER, CLAMPS, SPARK, EVENT, QUIZ, EXPECT)
 """Sections of a scenario file."""
 
 
@@ -305,9 +317,10 @@ def load_scenario(path: Path | str) -> Scenario:
     technology = value.pop("technology")
     if technology is not None:
         refuse_gap(section(content, "wire", where), f"{where}: [wire]")
+    spark, events = read_spark(content, where), read_events(content, where)
     interpolator, program = value.pop("interpolator"), value.pop("program")
     value["dialect"] = chosen_dialect(value["dialect"], path, {}, where)
-    return Scenario(
+    scenario = Scenario(
         title=value.pop("title") or printable(path.resolve().name),
         program=path / (program if "program" in content else _usual_name(path)),
         machine=machine if interpolator is None else machine.stepping_by(interpolator),
@@ -320,10 +333,19 @@ def load_scenario(path: Path | str) -> Scenario:
         technology=technology and load_technology(path / technology),
         sheet=JobFields(**SHEET.read_in(content, where)),
         expect=read_expectation(section(content, "expect", where), f"{where}: [expect]"),
+        spark=spark,
+        events=events,
         machine_by_default="machine" not in content,
         **value,
         **WORK.read_in(content, where),
     )
+    return under_sparks(scenario) if events else scenario
+
+
+def under_sparks(scenario: Scenario, seed: int | None = None) -> Scenario:
+    """The scenario cut under its own sparks, else under those of its machine, else under usual ones; by a seed."""
+    spark = scenario.spark or scenario.machine.spark or Spark()
+    return replace(scenario, spark=spark if seed is None else spark._replace(seed=seed))
 
 
 def with_values(scenario: Scenario, values: Mapping[str, Any], technology: Technology | None = None) -> Scenario:

@@ -82,4 +82,6 @@ def taken_for_granted(run: DryRun) -> list[Bilingual]:
         lines.append(bilingual("assumptions.no-drawing"))
     if not found.wire_bows:
         lines.append(bilingual("assumptions.straight", **_usual_lag()))
+    if run.process is not None:
+        lines.append(bilingual("sparks.model"))
     return lines

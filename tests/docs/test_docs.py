@@ -275,7 +275,7 @@ def test_tables_of_keys_are_those_of_the_keys() -> None:
 
 @pytest.mark.parametrize("name", [name for name, key in KEYS.items() if isinstance(key.kind, Number)])
 def test_settings_are_documented_with_their_bounds(name: str) -> None:
-    ((_, _, bounds, *_),) = rows_of(DOCS / "scenarios.md", f"`{name}`")
+    ((_, _, bounds, *_),) = rows_of_key(f"`{name}`")
     numbers = [float(text) for text in re.findall(r"-?\d+(?:\.\d+)?", bounds.replace("−", "-").replace(",", ""))]
     bound = KEYS[name].kind.bound
     assert bound
@@ -284,7 +284,7 @@ def test_settings_are_documented_with_their_bounds(name: str) -> None:
 
 @pytest.mark.parametrize("name", [*KEYS, "[[clamps]]", "[[quiz]]", "[expect]"])
 def test_scenario_and_machine_files_have_no_key_that_is_not_documented(name: str) -> None:
-    assert len(rows_of(DOCS / "scenarios.md", f"`{name}` |")) == 1
+    assert len(rows_of_key(f"`{name}` |")) == 1
 
 
 def test_shipped_machines_are_documented_with_their_figures() -> None:
@@ -309,6 +309,11 @@ def test_findings_are_documented_with_severity_and_title() -> None:
     ]
     written = {code[2:].partition("]")[0]: (severity.strip(), title.strip()) for _, code, severity, title, *_ in rows}
     assert written == {code: (str(of.severity), catalogue_page(code).title) for code, of in CODES.items()}
+
+
+def rows_of_key(beginning: str) -> list[list[str]]:
+    """Rows of a key in the documents of scenario files: those of sparks have one of their own."""
+    return [row for page in ("scenarios.md", "sparks.md") for row in rows_of(DOCS / page, beginning)]
 
 
 def rows_of(page: Path, beginning: str) -> list[list[str]]:

@@ -115,6 +115,7 @@ VALUES: dict[str, dict[str, Value]] = {
     "3B606": {"off": 4.0, "within": 2.0, "most": 6.0, "tolerance": 5.0, "x_mm": 12.5, "y_mm": 0.0},
     "3B607": {"number": 3, "offset": 100.0, "reach": 97.0, "least": 96.0, "most": 98.0, "by": 3.0},
     "3B608": {"number": 2, "taken": 0.0},
+    "3B609": {"time_s": 3.2, "why": "stop-in-vain"},
     "GEC401": {"call": "GT_ZeroPos(1)", "answer": 1, "function": "GT_ZeroPos", "then": "GT_LnXY(30000.0, 0.0)"},
     "GEC402": {"axis": 1, "side": "limit-negative", "t_s": 16.45},
     "GEC403": {"slept_s": 2.0, "needed_s": 3.4642, "short_s": 1.4642, "call": "GT_ZeroPos(1)", "more": 2},

@@ -227,7 +227,9 @@ class Kerf:
     toolpath
         The path that was run.
     reach_um
-        (n,) half the width that the wire cuts in each block: its radius plus the spark gap of the pass.
+        (n,) half the width that the wire cuts in each block: its radius plus the spark gap there.
+    usual_um
+        (n,) the same by the spark gap of the pass alone, as sparks at the usual feed leave it: nominal sizes go by it.
     swept
         What the wire swept on each contour, with its polygon `region_um`.
     leads
@@ -240,6 +242,7 @@ class Kerf:
 
     toolpath: Toolpath
     reach_um: Floats
+    usual_um: Floats
     swept: tuple[Swept, ...]
     leads: Bools
     pass_edge: Ints
@@ -277,8 +280,12 @@ class Kerf:
         return ranges(self.edges, self.edges.left_um + self.edges.right_um, len(self.toolpath))
 
 
-def kerf_of(toolpath: Toolpath, trace: Trace, contours: Sequence[Contour], reach_um: Floats) -> Kerf:
+def kerf_of(
+    toolpath: Toolpath, trace: Trace, contours: Sequence[Contour], reach_um: Floats, usual_um: Floats | None = None
+) -> Kerf:
     """Kerf of a run by where the wire really was; in each block (n,) it reaches above 0 to all sides of it.
+
+    `usual_um` (n,) is what it reaches at the usual feed, where that is another.
 
     RegionError with the blocks of a contour whose kerf could not be worked out.
     """
@@ -289,6 +296,7 @@ def kerf_of(toolpath: Toolpath, trace: Trace, contours: Sequence[Contour], reach
     return Kerf(
         toolpath=toolpath,
         reach_um=reach_um,
+        usual_um=reach_um if usual_um is None else usual_um,
         swept=swept,
         leads=leads_of(passes, toolpath),
         pass_edge=edge_of[passes.of_row],

@@ -38,7 +38,15 @@ from sim.measure.threadings import Threading, threadings
 from sim.run.dryrun import DryRun, assumptions_of
 from sim.run.findings import to_check, verdict
 from sim.run.report.drawing import ComparisonEntry, comparison_document
-from sim.run.report.figures import deviation_entries, ended_entry, limit_entry, loss_entry, offset_entry, remains_entry
+from sim.run.report.figures import (
+    deviation_entries,
+    ended_entry,
+    limit_entry,
+    loss_entry,
+    offset_entry,
+    remains_entry,
+    spark_entry,
+)
 from sim.run.report.model import (
     AssumptionsEntry,
     BlockEntry,
@@ -206,6 +214,7 @@ def build_report(run: DryRun) -> ReportDocument:
         "deviation": deviation_entries(run.deviations, run.ran_s),
         "limits": [limit_entry(peak, run.ran_s) for peak in run.peaks],
         "losses": [loss_entry(loss, run.ran_s) for loss in run.losses],
+        "spark": spark_entry(run.process),
         "remains": remains_entry(run.remains, run.ran_s),
         "drawing": _drawing(run.comparison),
         "coverage": _coverage(run.coverage),

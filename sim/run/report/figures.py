@@ -24,6 +24,7 @@ from sim.cut.remains import Remains
 from sim.cut.sizes import BoxSize, DistanceSize, RadiusSize, Sizes
 from sim.measure.causes import Deviations, Part
 from sim.measure.deviation import Deviation, Where
+from sim.process.cut import Moment, ProcessRun
 from sim.run.dryrun import DryRun, Ending
 from sim.run.report.cut_model import (
     BoxEntry,
@@ -47,6 +48,8 @@ from sim.run.report.run_model import (
     LossEntry,
     OffsetBlockEntry,
     OffsetEntry,
+    SparkEntry,
+    SparkMomentEntry,
     WhereEntry,
 )
 from sim.table.losses import Loss, Peak
@@ -125,6 +128,52 @@ def _met(event: Peak | Loss | Ending, ran_s: float) -> WhereEntry:
     """Block, time and place of what happened in a run of `ran_s`."""
     x, y = rounded(event.x_um), rounded(event.y_um)
     return {"block": event.row + 1, "t_s": moment(event.t_s, ran_s), "x_um": x, "y_um": y}
+
+
+def spark_entry(process: ProcessRun | None) -> SparkEntry | None:
+    """``spark``; None where nothing was cut under sparks."""
+    if process is None:
+        return None
+    mean, stopped = process.mean, process.stopped
+    return {
+        "mean_voltage_share": rounded(mean.voltage_share),
+        "gap_um": rounded(mean.gap_um),
+        "area_rate_mm2_min": rounded(mean.area_rate_mm2_min),
+        "feed_um_s": rounded(mean.feed_um_s),
+        "shorts": process.shorts,
+        "breaks": process.breaks,
+        "retreated_um": rounded(process.retreated_um),
+        "lost_s": rounded(process.lost_s),
+        "time_s": rounded(process.time_s),
+        "sparks": process.sparks,
+        "seed": process.spark.seed,
+        "stopped": None if stopped is None else _spark_moment(stopped),
+        "events": [_spark_moment(each) for each in process.moments],
+        "events_unlisted": process.unlisted,
+        "marks": [
+            {
+                "block": mark.row + 1,
+                "x_um": rounded(mark.place_um.x),
+                "y_um": rounded(mark.place_um.y),
+                "depth_um": rounded(mark.depth_um),
+                "within_um": rounded(mark.within_um),
+            }
+            for mark in process.marks
+        ],
+    }
+
+
+def _spark_moment(moment: Moment) -> SparkMomentEntry:
+    return {
+        "kind": moment.kind,
+        "block": moment.row + 1,
+        "step": moment.counters.made,
+        "t_s": rounded(moment.t_s),
+        "x_um": rounded(moment.place_um.x),
+        "y_um": rounded(moment.place_um.y),
+        "deviation": moment.counters.deviation,
+        "count_left_um": moment.counters.count_left_um,
+    }
 
 
 def offset_entry(run: DryRun) -> OffsetEntry | None:

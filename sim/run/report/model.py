@@ -41,6 +41,7 @@ from sim.run.report.run_model import (
     OffsetBlockEntry,
     OffsetEntry,
     PassEntry,
+    SparkEntry,
     ThreadPointEntry,
 )
 
@@ -189,6 +190,7 @@ class CheckEntry(TypedDict):
             "travel",
             "compensation",
             "remains",
+            "sparks",
         ),
     ]
     state: CheckProgress
@@ -311,6 +313,7 @@ class ReportDocument(TypedDict):
     deviation: DeviationsEntry
     limits: list[LimitEntry]
     losses: list[LossEntry]
+    spark: SparkEntry | None
     remains: RemainsEntry | None
     drawing: ComparisonEntry | None
     coverage: CoverageEntry

@@ -14,6 +14,7 @@ from parser.documents import (
     Point,
     Positive,
     Size,
+    Slug,
     between,
     matching,
     of_length,
@@ -261,6 +262,49 @@ class LimitEntry(TypedDict):
     t_s: Size
     x_um: float
     y_um: float
+
+
+class SparkMomentEntry(TypedDict):
+    """Something that happened in a cut under sparks, or why the control stopped."""
+
+    kind: Slug
+    block: Ordinal
+    step: Count
+    t_s: Size
+    x_um: float
+    y_um: float
+    deviation: int
+    count_left_um: Count
+
+
+class SparkMarkEntry(TypedDict):
+    """A place where a stop or a way back shows on the wall."""
+
+    block: Ordinal
+    x_um: float
+    y_um: float
+    depth_um: float
+    within_um: Size
+
+
+class SparkEntry(TypedDict):
+    """The cut under sparks: means of the time in which there was something to cut, and what happened."""
+
+    mean_voltage_share: Size
+    gap_um: Size
+    area_rate_mm2_min: Size
+    feed_um_s: Size
+    shorts: Count
+    breaks: Count
+    retreated_um: Size
+    lost_s: Size
+    time_s: Size
+    sparks: Count
+    seed: Count
+    stopped: SparkMomentEntry | None
+    events: list[SparkMomentEntry]
+    events_unlisted: Count
+    marks: list[SparkMarkEntry]
 
 
 class LossEntry(TypedDict):

@@ -20,6 +20,7 @@ from sim.setup.machine.motor import MOTOR
 from sim.setup.machine.table import TABLE, TableEngine, TableModel, read_table
 from sim.setup.obstacles import ARM, Outline
 from sim.setup.settable import INTERPOLATOR
+from sim.setup.spark import SPARK, Spark, read_spark
 from sim.setup.toml.keys import Key, Section, WrittenSection
 from sim.setup.toml.kinds import (
     DEGREES_AS_RAD,
@@ -157,7 +158,7 @@ TOP = Section(
     form="top",
 )
 CUTTING = Section("cutting", (Key("area_rate_mm2_min", Number(AREA_RATE_MM2_MIN, "mm²/min")),))
-SECTIONS = (TOP, TABLE, MOTOR, CONTROLLER, CUTTING, ARM)
+SECTIONS = (TOP, TABLE, MOTOR, CONTROLLER, CUTTING, ARM, SPARK)
 """Sections of a machine file."""
 
 
@@ -167,7 +168,7 @@ class Machine(NamedTuple):
     `arm_um` is the outline of the arm round the wire, if known. `assumed` are the keys of the values that nobody has
     measured, `measured` those that somebody has, each with half of its 95 % interval in the unit of the key: no run
     goes by either. `name_zh` is its name in Chinese, None where that is the same. `engine` is what its table is worked
-    out with, which is no matter of the file.
+    out with, which is no matter of the file. `spark` are the sparks of cuts that ask for them.
     """
 
     name: str
@@ -179,6 +180,7 @@ class Machine(NamedTuple):
     assumed: tuple[str, ...] = ()
     measured: tuple[tuple[str, float], ...] = ()
     engine: TableEngine = "compiled"
+    spark: Spark | None = None
 
     def stepping_by(self, interpolation: Interpolation) -> "Machine":
         """The machine with another interpolator."""
@@ -253,6 +255,7 @@ def _read(path: Path) -> Machine:
         table=read_table(content, where),
         controller=read_controller(content, where),
         **CUTTING.read_in(content, where),
+        spark=read_spark(content, where),
         **arm,
     )
     _check_grades(machine, where)

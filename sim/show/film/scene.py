@@ -17,7 +17,6 @@ import shapely
 from numpy.typing import NDArray
 
 from parser.geometry.curves import Floats, Ints
-from sim.cut.wire_rows import wire_rows
 from sim.measure.compare.starts import laid_loops
 from sim.run.course import Course, Moment
 from sim.setup.scenario import Scenario
@@ -313,7 +312,7 @@ class Scene:
         self._course, self._theme = course, theme
         run = course.run
         self._drawing = drawing_um(course, view)
-        reach_um = wire_rows(run.toolpath, run.scenario, run.passes).reach_um
+        reach_um = run.reach_um
         self._radius: Floats = np.maximum(reach_um * view.px_per_um, 0.5 * style.KERF_WIDTH_MIN * unit)  # (n,) by row
         discs = discs_of(course.trace, run.toolpath.is_jump, view, layout.plot, self._radius)
         self._map = CutMap(discs, layout.plot)

@@ -38,7 +38,6 @@ from sim.base.units import (
 )
 from sim.cut.pieces.pieces import Piece
 from sim.cut.regions import simpler
-from sim.cut.wire_rows import wire_rows
 from sim.run.course import Happening, PassOf, course_of, passes_of
 from sim.run.dryrun import DryRun, Ending
 from sim.run.findings import outcome
@@ -178,7 +177,7 @@ def _reaches(run: DryRun) -> list[float] | None:
     """Half the width of the kerf of each block; None where it is the same for all."""
     if run.scenario.technology is None:
         return None
-    return numbers(wire_rows(run.toolpath, run.scenario, run.passes).reach_um)
+    return numbers(run.reach_um)
 
 
 def plan_columns(plan: Plan) -> PlanEntry:

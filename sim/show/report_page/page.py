@@ -46,6 +46,7 @@ from sim.show.report_page.results import (
     limit_table,
     loss_table,
     pass_table,
+    spark_tables,
     technology_table,
 )
 from sim.show.report_page.sheet import MOST_THREADS, sheet_of, thread_table
@@ -266,6 +267,7 @@ def _tables(run: DryRun, report: ReportDocument) -> list[ReportTable]:
         cause_table(run, report),
         limit_table(run, report),
         loss_table(run, report),
+        *spark_tables(run, report),
         *([piece_table(remains["pieces"], names), *size_tables(remains["sizes"], names)] if remains else []),
         *([worst_table(drawing["worst"], names), corner_table(drawing["unreachable"], names)] if drawing else []),
         block_table(run, report),

@@ -1,14 +1,15 @@
 """Tables of what a run came to: blocks, contours, deviations, limits and losses of the drives, checks."""
 
-from typing import Any, Final, cast
+from typing import Any, Final, cast, get_args
 
 from parser.findings.catalogue import LANGUAGES, Bilingual
 from parser.shape.contours import Contour
 from parser.text.source import BlockNames
 from sim.run.dryrun import DryRun
 from sim.run.report.model import ReportDocument
-from sim.run.report.run_model import CauseEntry, PassEntry
+from sim.run.report.run_model import CauseEntry, PassEntry, SparkMomentEntry
 from sim.setup.key_words import value_word
+from sim.setup.spark import EventKind
 from sim.show.report_page.findings import address
 from sim.show.report_page.tables import (
     Column,
@@ -209,6 +210,66 @@ def loss_table(run: DryRun, report: ReportDocument) -> ReportTable:
     amount = micrometres("amount", column_of(entries, "amount_um"))
     axis, met = named("axis", column_of(entries, "axis")), _met(run.block_names, entries)
     return ReportTable("losses", (what, axis, amount, *met))
+
+
+def spark_tables(run: DryRun, report: ReportDocument) -> list[ReportTable]:
+    """The cut under sparks: its figures, what happened, and the marks that it left; none without one."""
+    spark, names = report["spark"], run.block_names
+    if spark is None:
+        return []
+    figures = [spark]
+    happened = spark["events"] if spark["stopped"] is None else [*spark["events"], spark["stopped"]]
+    return [
+        ReportTable(
+            "sparks",
+            (
+                micrometres("front-gap", column_of(figures, "gap_um"), 1),
+                Column(bilingual("report.voltage"), column_of(figures, "mean_voltage_share"), "number", "%", 0.01, 1),
+                Column(
+                    bilingual("report.area-rate"), column_of(figures, "area_rate_mm2_min"), unit="mm²/min", digits=1
+                ),
+                Column(bilingual("report.feed"), column_of(figures, "feed_um_s"), "number", "mm/min", 1000.0 / 60.0, 3),
+                timed("spark-time", column_of(figures, "time_s")),
+                timed("lost-time", column_of(figures, "lost_s")),
+                counted("shorts", column_of(figures, "shorts")),
+                millimetres("gone-back", column_of(figures, "retreated_um")),
+                counted("breaks", column_of(figures, "breaks")),
+            ),
+        ),
+        ReportTable("events", (_events(happened), *_met(names, happened), *_counters(happened))),
+        ReportTable(
+            "marks",
+            (
+                called("block", column_of(spark["marks"], "block"), names.at),
+                millimetres("at-x", column_of(spark["marks"], "x_um")),
+                millimetres("at-y", column_of(spark["marks"], "y_um")),
+                micrometres("depth", column_of(spark["marks"], "depth_um"), 1),
+                micrometres("depth-within", column_of(spark["marks"], "within_um"), 1),
+            ),
+        ),
+    ]
+
+
+def _events(happened: list[SparkMomentEntry]) -> Column:
+    """What happened: kinds of events by the words of settings."""
+    kinds = dict.fromkeys(each["kind"] for each in happened)
+    return Column(
+        bilingual("report.event"), [each["kind"] for each in happened], "word", words=dict(map(_event, kinds))
+    )
+
+
+def _counters(happened: list[SparkMomentEntry]) -> tuple[Column, ...]:
+    """What the control had in its counters, for who has to type it in again."""
+    return (
+        counted("count-length-left", column_of(happened, "count_left_um")),
+        counted("deviation-f", column_of(happened, "deviation")),
+    )
+
+
+def _event(kind: str) -> tuple[str, Bilingual]:
+    if kind in get_args(EventKind):
+        return kind, value_word(kind)
+    return kind, bilingual("sparks.cleared") if kind == "cleared" else catalogued(f"stop-{kind}")
 
 
 def check_table(run: DryRun) -> ReportTable:

@@ -23,6 +23,7 @@ from sim.run.findings import outcome
 from sim.setup.key_words import value_word
 from sim.setup.technology import PassTechnology, worst_grade
 from sim.show.refusals import taken_for_granted
+from sim.show.spark_rows import spark_rows
 from sim.show.terminal.finding import finding_lines
 from sim.show.terminal.layout import paragraph, show, table
 from sim.show.terminal.printer import COLOURS, painted, say, styled
@@ -168,6 +169,7 @@ def summary_rows(run: DryRun, language: Language = "en") -> list[Row]:
     return [
         *_work_rows(run, tell),
         *_times(run, tell),
+        *spark_rows(run.process, run.block_names, tell),
         *pass_rows(run, tell),
         *_closures(run, tell),
         *_stopped(run, tell),

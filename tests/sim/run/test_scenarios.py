@@ -26,6 +26,8 @@ LONG = {"logo", "gear"}  # made of splines, a program of its drawing takes secon
 def times_in(part: object) -> Iterator[float]:
     """All times of what happened that a part of a report tells."""
     for key, value in part.items() if isinstance(part, dict) else enumerate(part if isinstance(part, list) else ()):
+        if key == "spark":  # of another clock
+            continue
         if str(key).endswith("t_s") and value is not None:
             yield value
         yield from times_in(value)

@@ -175,6 +175,9 @@ UNITS = {
     "per_s": "1/s",
     "deg": "°",
     "n": "N",
+    "v": "V",
+    "s": "s",
+    "h": "/h",
 }
 """Units by the ends of keys, longer ones first."""
 

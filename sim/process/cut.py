@@ -1,0 +1,251 @@
+"""A program cut under sparks, from its steps to what came of it: its times, its figures, what happened."""
+
+import math
+from collections.abc import Sequence
+from itertools import islice
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from controller.stepping.counters import Counters
+from parser.geometry.curves import Floats
+from parser.toolpath import Point
+from parser.units import from_mm
+from sim.process.happenings import KINDS, happenings_of
+from sim.process.sparks import CRATERS, Steady, steady
+from sim.process.ticks import state as ticks
+from sim.process.ticks.state import Bounds, Discharge, Job, Records, Servo, Walls
+from sim.process.ticks.tick import run_ticks
+from sim.process.walls import Mark, marks_of, usual_gap_um, walls_of, widened
+from sim.process.way import CutRows, Work, cut_rows, standing
+from sim.setup.spark import Event, Spark
+
+_LAWS: Final = {"voltage": ticks.VOLTAGE, "window": ticks.WINDOW, "duty": ticks.DUTY}
+_STOPS: Final = {
+    ticks.IN_VAIN: "in-vain",
+    ticks.SHORTED: "shorted",
+    ticks.STALLED: "stalled",
+    ticks.BREAKS_AGAIN: "breaks-again",
+    ticks.RUNNING: "too-long",
+}
+_WORDS: Final[dict[int, str]] = {number: kind for kind, number in KINDS.items()} | {ticks.CLEARED: "cleared"}
+_STRETCH_UM: Final = 10.0
+_MOST_STRETCHES: Final = 1 << 20
+_HISTORY_ROWS: Final = 4096
+_LOG_ROWS: Final = 500
+_MOST_MARKS: Final = 200
+_TICKS_AT_ONCE: Final = 1 << 20
+_MOST_TICKS: Final = 400 * 3_600_000
+"""400 hours: no wire stays in work for longer."""
+
+
+class Moment(NamedTuple):
+    """Something that happened.
+
+    Attributes
+    ----------
+    kind
+        A kind of event, ``cleared`` of a short, or why the control stopped: ``in-vain`` at the end of its way back,
+        ``shorted`` for too long, ``stalled`` without progress, ``breaks-again`` in one place, ``too-long``.
+    t_s
+        When.
+    counters
+        What the control had in its counters.
+    place_um
+        Where the wire stood.
+    """
+
+    kind: str
+    t_s: float
+    counters: Counters
+    place_um: Point
+
+    @property
+    def row(self) -> int:
+        """Row of the toolpath."""
+        return self.counters.row
+
+
+class ProcessRun(NamedTuple):
+    """What came of a cut under sparks.
+
+    Attributes
+    ----------
+    spark
+        What it was cut with.
+    time_s, lost_s
+        All of it, jumps left out, and what of it went into shorts, breaks, waits.
+    sparks
+        How many there were.
+    mean
+        Gap, voltage, rates and feed, as means of the time in which there was something to cut.
+    shorts, breaks, retreated_um
+        How many of each, and the way gone back in shorts.
+    moments, unlisted
+        What happened, in order, and how much more than there is room for.
+    stopped
+        Where the control gave up; None where the path was cut to its end.
+    block_s
+        (n,) time in each block.
+    wider_um
+        (n,) by how much the gap at the walls of each block is wider, below 0 narrower, than at the usual feed.
+    marks
+        Where stops and ways back show.
+    history
+        (m, 4): time in s, step, mean voltage and mean current as shares of the highest.
+    """
+
+    spark: Spark
+    time_s: float
+    lost_s: float
+    sparks: int
+    mean: Steady
+    shorts: int
+    breaks: int
+    retreated_um: float
+    moments: tuple[Moment, ...]
+    unlisted: int
+    stopped: Moment | None
+    block_s: Floats
+    wider_um: Floats
+    marks: tuple[Mark, ...]
+    history: Floats
+
+
+class Started(NamedTuple):
+    """A cut that begins: what is cut and with which sparks, what the loop goes by, its state, and its walls."""
+
+    work: Work
+    rows: CutRows
+    spark: Spark
+    job: Job
+    state: Floats
+    walls: Walls
+
+    @property
+    def usual_s(self) -> float:
+        """About how long it takes at the usual gap, s."""
+        return _usual_s(self.rows, self.work, self.spark)
+
+
+def started(work: Work, spark: Spark, events: Sequence[Event] = ()) -> Started:
+    """A cut at its start."""
+    rows = cut_rows(work)
+    job = job_of(work, rows, spark, events)
+    walls = walls_of(work, rows, spark, float(job.records.stretch_um[0]))
+    return Started(work, rows, spark, job, state_of(spark), walls)
+
+
+def run_sparks(work: Work, spark: Spark, events: Sequence[Event] = ()) -> ProcessRun:
+    """Cut a path under sparks; the same seed gives the same run."""
+    cut = started(work, spark, events)
+    came_to = ticks.RUNNING if len(cut.rows.row) else ticks.FINISHED
+    while came_to == ticks.RUNNING and cut.state[ticks.TICKS] < _MOST_TICKS:
+        came_to = run_ticks(cut.job, cut.state, _TICKS_AT_ONCE)
+    return _result(cut, came_to)
+
+
+def job_of(work: Work, rows: CutRows, spark: Spark, events: Sequence[Event]) -> Job:
+    """All that the loop goes by, and room for what it records."""
+    length_um = float(rows.way.along_um[-1])
+    stretch_um = max(_STRETCH_UM, length_um / _MOST_STRETCHES)
+    law, crater = spark.filled, CRATERS[spark.mode]
+    least_um_s = law.least_um_s if spark.law == "duty" else -spark.back_um_s
+    return Job(
+        way=rows.way,
+        discharge=Discharge(spark.on_us, spark.off_us, crater.mean_um3, crater.spread_um3, work.height_um),
+        servo=Servo(
+            law=float(_LAWS[spark.law]),
+            gain_um_s=law.gain_um_s,
+            reset_s=law.reset_s,
+            least_um_s=least_um_s,
+            most_um_s=max(law.most_um_s, least_um_s),
+            ring_um=spark.ring_um,
+        ),
+        bounds=Bounds(
+            short_s=spark.short_s,
+            area_rate_mm2_min=math.inf if spark.most_mm2_min is None else spark.most_mm2_min,
+            thread_s=spark.thread_s,
+            restart_s=spark.restart_s,
+            jog_um_s=spark.jog_um_s,
+            is_from_start=float(spark.threading == "start"),
+            is_manned=0.0,
+        ),
+        happenings=happenings_of(rows, spark, events, 2.0 * _usual_s(rows, work, spark) + 60.0),
+        records=Records(
+            lit_s=np.zeros(int(length_um / stretch_um) + 1),
+            stretch_um=np.array([stretch_um]),
+            block_s=np.zeros(len(rows.row)),
+            log=np.zeros(4 * _LOG_ROWS),
+            history=np.zeros(4 * _HISTORY_ROWS),
+        ),
+    )
+
+
+def state_of(spark: Spark) -> Floats:
+    """A cut that begins. Its generator has two seeds within its bounds; neighbouring seeds lead far apart."""
+    state = np.zeros(ticks.STATE_SIZE)
+    first, second = np.random.SeedSequence(spark.seed).generate_state(2).tolist()
+    state[ticks.SEED_1], state[ticks.SEED_2] = first % 2_147_483_562 + 1, second % 2_147_483_398 + 1
+    state[ticks.SET_SHARE] = spark.filled.set_value
+    state[ticks.HISTORY_STRIDE] = 1.0
+    return state
+
+
+def _usual_s(rows: CutRows, work: Work, spark: Spark) -> float:
+    """Time that the cut takes at the usual gap, s."""
+    gap_um, most_um_s = usual_gap_um(spark), spark.filled.most_um_s
+    widths = rows.way.width_um.tolist()
+    feeds = {each: steady(spark, gap_um, each, work.height_um).feed_um_s if each else most_um_s for each in set(widths)}
+    each_s = np.diff(rows.way.along_um) / np.array([min(feeds[width], most_um_s) for width in widths])
+    return float(each_s.sum())
+
+
+def _result(cut: Started, came_to: int) -> ProcessRun:
+    work, rows, state, records = cut.work, cut.rows, cut.state, cut.job.records
+    wider = widened(cut.walls, rows.way, records)
+    block_s, wider_um = np.zeros(len(work.toolpath)), np.zeros(len(work.toolpath))
+    block_s[rows.row], wider_um[rows.row] = records.block_s, wider.by_row_um
+    logged = min(int(state[ticks.LOGGED]), _LOG_ROWS)
+    log = [row for row in records.log.reshape(-1, 4)[:logged].tolist() if int(row[2]) != ticks.STOPPED]
+    moments = tuple(_moment(work, rows, t_s, at, _WORDS[int(kind)]) for t_s, at, kind, _ in log)
+    time_s = float(state[ticks.TICKS]) * ticks.TICK_S
+    is_through = came_to == ticks.FINISHED
+    return ProcessRun(
+        spark=cut.spark,
+        time_s=time_s,
+        lost_s=float(state[ticks.LOST_TICKS]) * ticks.TICK_S,
+        sparks=int(state[ticks.ALL_SPARKS]),
+        mean=_mean(state, work.height_um),
+        shorts=int(state[ticks.SHORTS]),
+        breaks=int(state[ticks.BREAKS]),
+        retreated_um=float(state[ticks.RETREATED_UM]),
+        moments=moments,
+        unlisted=int(state[ticks.LOGGED]) - logged,
+        stopped=None if is_through else _moment(work, rows, time_s, float(state[ticks.AT]), _STOPS[came_to]),
+        block_s=block_s,
+        wider_um=wider_um,
+        marks=tuple(islice(marks_of(work, rows, log, cut.walls, wider), _MOST_MARKS)),
+        history=records.history.reshape(-1, 4)[: int(state[ticks.HISTORY_ROWS])],
+    )
+
+
+def _mean(state: Floats, height_um: float) -> Steady:
+    """Means of the time with something to cut; zeros where there was none."""
+    live_s = float(state[ticks.LIVE_TICKS]) * ticks.TICK_S
+    if live_s == 0.0:
+        return Steady(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    area_rate = float(state[ticks.AREA_UM2]) * 1e-6 / live_s * 60.0
+    open_us = float(state[ticks.ALL_OPEN_US] + ticks.ARC_SHARE * state[ticks.ALL_ON_US])
+    return Steady(
+        gap_um=float(state[ticks.ALL_GAP_UM] / state[ticks.LIVE_TICKS]),
+        rate_hz=float(state[ticks.ALL_SPARKS]) / live_s,
+        voltage_share=open_us / (live_s * 1e6),
+        volume_mm3_min=float(state[ticks.REMOVED_UM3]) * 1e-9 / live_s * 60.0,
+        area_rate_mm2_min=area_rate,
+        feed_um_s=from_mm(from_mm(area_rate)) / 60.0 / height_um,
+    )
+
+
+def _moment(work: Work, rows: CutRows, t_s: float, at: float, kind: str) -> Moment:
+    return Moment(kind, t_s, *standing(work, rows, at))

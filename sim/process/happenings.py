@@ -1,0 +1,80 @@
+"""Events of a scenario as the loop of a cut takes them: in order, random ones drawn."""
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from sim.process.ticks import state as ticks
+from sim.process.ticks.state import Happenings
+from sim.process.way import CutRows
+from sim.setup.spark import Event, EventKind, Spark
+
+KINDS: Final[dict[EventKind, int]] = {
+    "short": ticks.SHORT,
+    "chips": ticks.CHIPS,
+    "break": ticks.BREAK,
+    "power": ticks.POWER,
+    "pause": ticks.PAUSE,
+    "sparks-off": ticks.SPARKS_OFF,
+    "pump-off": ticks.PUMP_OFF,
+    "drum-off": ticks.DRUM_OFF,
+    "set": ticks.KNOB,
+}
+"""Kinds of events by the numbers of the loop."""
+_MOST_DRAWN: Final = 10_000
+
+
+class _Timed(NamedTuple):
+    """An event, and its step or its tick."""
+
+    at: float
+    event: Event
+
+
+def happenings_of(rows: CutRows, spark: Spark, events: Sequence[Event], guessed_s: float) -> Happenings:
+    """Events in the order in which they come; random ones are drawn for `guessed_s` of a cut."""
+    if spark.breaks_per_h:
+        events = [*events, Event("break", per_h=spark.breaks_per_h)]
+    by_step, by_time = list[_Timed](), list[_Timed]()
+    for number, event in enumerate(events):
+        if event.block is not None:
+            by_step += [_Timed(step, event) for step in _steps_of(rows, event.block, event.share)]
+        elif event.at_s is not None:
+            by_time.append(_Timed(_ticks(event.at_s), event))
+        elif event.per_h is not None:
+            source = [spark.seed, number] if event.seed is None else [event.seed]
+            by_time += [_Timed(tick, event) for tick in _drawn(event.per_h, source, guessed_s)]
+    both = [*sorted(by_step, key=lambda each: each.at), *sorted(by_time, key=lambda each: each.at)]
+    return Happenings(
+        kind=np.array([KINDS[each.event.kind] for each in both], dtype=np.float64),
+        for_s=np.array([each.event.for_s for each in both], dtype=np.float64),
+        size=np.array([_size(each.event) for each in both], dtype=np.float64),
+        at=np.array([each.at for each in both], dtype=np.float64),
+        by_step=np.array([len(by_step)], dtype=np.float64),
+    )
+
+
+def _ticks(seconds: float) -> float:
+    return float(math.floor(seconds / ticks.TICK_S + 0.5))
+
+
+def _size(event: Event) -> float:
+    sizes = {"short": event.clear_um, "chips": event.factor, "power": float(event.remembers)}
+    return sizes.get(event.kind, event.set_value or 0.0)
+
+
+def _steps_of(rows: CutRows, block: int, share: float) -> Iterator[float]:
+    """The step at a share of a block, from 1; none where the block makes no step."""
+    for index in np.flatnonzero(rows.row == block - 1).tolist():
+        first, last = rows.way.before[index : index + 2].tolist()
+        yield first + math.floor((last - first) * share)
+
+
+def _drawn(per_h: float, source: Sequence[int], guessed_s: float) -> list[float]:
+    """Ticks of what comes at random: waits between them are exponential."""
+    random = np.random.Generator(np.random.PCG64(np.random.SeedSequence(source)))
+    most = min(int(guessed_s / 3600.0 * per_h * 2.0) + 20, _MOST_DRAWN)
+    at_s = np.cumsum(-np.log1p(-random.random(most)) * 3600.0 / per_h)
+    return [_ticks(each) for each in at_s[at_s < guessed_s].tolist()]

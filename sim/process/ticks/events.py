@@ -1,0 +1,160 @@
+"""What happens in a cut, at a step or at a time."""
+
+import math
+
+from controller.compiled.loops import loop_part
+from parser.geometry.curves import Floats
+from sim.process.ticks.gap import place_um
+from sim.process.ticks.log import note
+from sim.process.ticks.state import (
+    AREA_RATE,
+    AT,
+    BREAK,
+    BREAK_UM,
+    BREAKS,
+    BREAKS_HERE,
+    BUSY_US,
+    CHIP_CLEAR_UM,
+    CHIP_UM,
+    CHIP_UNTIL,
+    CHIPS,
+    CHIPS_FACTOR,
+    CHIPS_UNTIL,
+    DRUM_OFF,
+    DRUMLESS_UNTIL,
+    HOLD_UNTIL,
+    KNOB,
+    LOST_TICKS,
+    NEXT_BY_STEP,
+    NEXT_BY_TIME,
+    PAUSE,
+    POWER,
+    POWER_OUT,
+    PROGRESS_TICK,
+    PUMP_OFF,
+    PUMPLESS_UNTIL,
+    RESET_UM_S,
+    RESIDUE,
+    ROW,
+    SET_SHARE,
+    SHORT,
+    SPARKLESS_UNTIL,
+    SPARKS_OFF,
+    TICK_S,
+    TICKS,
+    UNCOOLED_TICKS,
+    WIRE_OUT,
+    Job,
+)
+
+_SAME_PLACE_UM = 1000.0
+
+
+@loop_part("void(f8[::1], f8)")
+def stand(state: Floats, seconds: float) -> None:
+    """Let time go by without sparks."""
+    ticks = math.floor(seconds / TICK_S + 0.5)
+    state[TICKS] += ticks
+    state[LOST_TICKS] += ticks
+    state[PROGRESS_TICK] = state[TICKS]
+    state[BUSY_US] = 0.0
+    state[RESET_UM_S] = 0.0
+    state[RESIDUE] = 0.0
+
+
+@loop_part("void(Job, f8[::1], f8)", Job)
+def thread_wire(job: Job, state: Floats, is_from_start: float) -> None:
+    """Thread a broken wire, in place or at the start, from where it goes through the slot again."""
+    back_um = place_um(job, state) - job.way.thread_um[int(state[ROW])]
+    stand(state, job.bounds.thread_s + 2.0 * back_um * is_from_start / job.bounds.jog_um_s)
+    state[PUMPLESS_UNTIL] = 0.0
+    state[DRUMLESS_UNTIL] = 0.0
+    state[UNCOOLED_TICKS] = 0.0
+    state[AREA_RATE] = 0.0
+    state[WIRE_OUT] = 0.0
+
+
+@loop_part("void(Job, f8[::1])", Job)
+def tear_wire(job: Job, state: Floats) -> None:
+    """Let the wire break: it is threaded at once, or waits for somebody who does it."""
+    note(job, state, BREAK, 0.0)
+    state[BREAKS] += 1.0
+    place = place_um(job, state)
+    is_here = state[BREAKS_HERE] > 0.0 and place - state[BREAK_UM] < _SAME_PLACE_UM
+    state[BREAKS_HERE] = state[BREAKS_HERE] + 1.0 if is_here else 1.0
+    state[BREAK_UM] = place if state[BREAKS_HERE] == 1.0 else state[BREAK_UM]
+    state[WIRE_OUT] = 1.0
+    if job.bounds.is_manned == 0.0:
+        thread_wire(job, state, job.bounds.is_from_start)
+
+
+@loop_part("void(Job, f8[::1], f8)", Job)
+def restart(job: Job, state: Floats, remembers: float) -> None:
+    """Go on after a power loss: at the step where it came, or at the begin of the block."""
+    stand(state, job.bounds.restart_s)
+    state[POWER_OUT] = 0.0
+    if remembers == 0.0:
+        state[AT] = job.way.before[int(state[ROW])]
+
+
+@loop_part("void(Job, f8[::1])", Job)
+def cut_power(job: Job, state: Floats) -> None:
+    """Let the power fail, and wait for somebody who switches it on."""
+    note(job, state, POWER, 1.0)
+    state[POWER_OUT] = 1.0
+
+
+@loop_part("void(f8[::1], f8, f8, f8)")
+def turn_switch(state: Floats, kind: float, until: float, size: float) -> None:
+    """Turn a switch or the knob, or let chips gather, until a tick."""
+    if kind == CHIPS:
+        state[CHIPS_UNTIL] = until
+        state[CHIPS_FACTOR] = size
+    elif kind == PAUSE:
+        state[HOLD_UNTIL] = until
+    elif kind == SPARKS_OFF:
+        state[SPARKLESS_UNTIL] = until
+    elif kind == PUMP_OFF:
+        state[PUMPLESS_UNTIL] = until
+    elif kind == DRUM_OFF:
+        state[DRUMLESS_UNTIL] = until
+    elif kind == KNOB:
+        state[SET_SHARE] = size
+
+
+@loop_part("void(Job, f8[::1], i8)", Job)
+def happen(job: Job, state: Floats, at: int) -> None:
+    """Let one of the happenings begin."""
+    kind = job.happenings.kind[at]
+    size = job.happenings.size[at]
+    seconds = job.happenings.for_s[at]
+    until = state[TICKS] + math.floor(seconds / TICK_S + 0.5)
+    if kind == BREAK:
+        tear_wire(job, state)
+        return
+    if kind == SHORT:  # noted when it is seen
+        state[CHIP_UM] = place_um(job, state)
+        state[CHIP_CLEAR_UM] = size
+        state[CHIP_UNTIL] = until
+        return
+    if kind == POWER:
+        cut_power(job, state)
+        if job.bounds.is_manned == 0.0:
+            restart(job, state, size)
+        return
+    note(job, state, kind, size)
+    turn_switch(state, kind, until, size)
+
+
+@loop_part("void(Job, f8[::1])", Job)
+def let_happen(job: Job, state: Floats) -> None:
+    """Begin what happens at this step, and at this time."""
+    happenings = job.happenings
+    by_step = int(happenings.by_step[0])
+    while state[NEXT_BY_STEP] < by_step and happenings.at[int(state[NEXT_BY_STEP])] <= state[AT]:
+        state[NEXT_BY_STEP] += 1.0
+        happen(job, state, int(state[NEXT_BY_STEP]) - 1)
+    count = len(happenings.at) - by_step
+    while state[NEXT_BY_TIME] < count and happenings.at[by_step + int(state[NEXT_BY_TIME])] <= state[TICKS]:
+        state[NEXT_BY_TIME] += 1.0
+        happen(job, state, by_step + int(state[NEXT_BY_TIME]) - 1)

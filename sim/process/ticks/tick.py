@@ -1,0 +1,98 @@
+"""A tick of 1 ms: what happens, sparks, and what the control makes of them."""
+
+from controller.compiled.loops import compiled, loop_part
+from parser.geometry.curves import Floats
+from sim.process.ticks.events import let_happen, tear_wire
+from sim.process.ticks.gap import let_spark, look, place_um
+from sim.process.ticks.log import note, record
+from sim.process.ticks.servo import move, way_of_law
+from sim.process.ticks.state import (
+    AT,
+    BREAKS_AGAIN,
+    BREAKS_HERE,
+    BROKEN,
+    FINISHED,
+    HAND_UM,
+    HOLD_UNTIL,
+    IN_VAIN,
+    IS_BY_HAND,
+    LOST_TICKS,
+    POWER_OUT,
+    POWERLESS,
+    PROGRESS_TICK,
+    REMOVED_UM3,
+    RUNNING,
+    SHORT_TICKS,
+    SHORTED,
+    STALLED,
+    STOPPED,
+    TICK_S,
+    TICKS,
+    WIRE_OUT,
+    Job,
+)
+from sim.process.ticks.watch import breaks, watch_short
+
+_STALL_TICKS = 600000.0
+_MOST_BREAKS_HERE = 5.0
+
+
+@loop_part("f8(Job, f8[::1])", Job)
+def way_of_tick(job: Job, state: Floats) -> float:
+    """Way that a tick makes, µm: by hand, none while the feed is held, else by the law."""
+    if state[IS_BY_HAND] > 0.0:
+        state[PROGRESS_TICK] = state[TICKS]
+        return float(state[HAND_UM])
+    if state[TICKS] < state[HOLD_UNTIL]:
+        state[LOST_TICKS] += 1.0
+        state[PROGRESS_TICK] = state[TICKS]
+        return 0.0
+    return way_of_law(job, state)
+
+
+@loop_part("i8(f8[::1])")
+def waits_for(state: Floats) -> int:
+    """What a cut waits for: somebody to thread the wire, or to switch the power on; else `RUNNING`."""
+    if state[WIRE_OUT] > 0.0:
+        return BREAKS_AGAIN if state[BREAKS_HERE] >= _MOST_BREAKS_HERE else BROKEN
+    return POWERLESS if state[POWER_OUT] > 0.0 else RUNNING
+
+
+@loop_part("i8(Job, f8[::1])", Job)
+def tick(job: Job, state: Floats) -> int:
+    """One tick: what happens, sparks, what the control makes of them; `RUNNING`, or why it stops."""
+    let_happen(job, state)
+    waiting = waits_for(state)
+    if waiting != RUNNING:
+        return waiting
+    place = place_um(job, state)
+    look(job, state, place)
+    removed = state[REMOVED_UM3]
+    let_spark(job, state, place)
+    watch_short(job, state)
+    record(job, state)
+    if breaks(job, state, state[REMOVED_UM3] - removed):
+        tear_wire(job, state)
+        return BREAKS_AGAIN if state[BREAKS_HERE] >= _MOST_BREAKS_HERE else waits_for(state)
+    is_in_vain = move(job, state, way_of_tick(job, state)) and state[IS_BY_HAND] == 0.0
+    state[TICKS] += 1.0
+    if is_in_vain:
+        return IN_VAIN
+    if state[SHORT_TICKS] * TICK_S > job.bounds.short_s and state[IS_BY_HAND] == 0.0:
+        return SHORTED
+    return STALLED if state[TICKS] - state[PROGRESS_TICK] > _STALL_TICKS else RUNNING
+
+
+@compiled("i8(Job, f8[::1], i8)", Job)
+def run_ticks(job: Job, state: Floats, most: int) -> int:
+    """Run so many ticks at most: `FINISHED` at the end of the path, else what the last tick came to."""
+    end = job.way.before[len(job.way.before) - 1]
+    for _ in range(most):
+        if state[AT] >= end:
+            return FINISHED
+        came_to = tick(job, state)
+        if came_to != RUNNING:
+            if came_to not in (BROKEN, POWERLESS):
+                note(job, state, STOPPED, float(came_to))
+            return came_to
+    return RUNNING

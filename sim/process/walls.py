@@ -1,0 +1,110 @@
+"""What a cut under sparks does to the walls: gaps that are wider where sparks had more time, marks of stops.
+
+A wall is within reach for as long as the wire takes to pass it by its own diameter. Where sparks have more time for it
+than at the usual feed, the gap there is wider by `sim.process.ticks.walls.side_gap_ratio`, else narrower.
+"""
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from parser.geometry.curves import Floats
+from parser.toolpath import Point
+from sim.process.sparks import settled_gap_um, steady
+from sim.process.ticks import state as ticks
+from sim.process.ticks.state import Records, Walls, Way
+from sim.process.ticks.walls import widen
+from sim.process.way import CutRows, Work, standing
+from sim.setup.spark import PRESETS, Spark
+
+BREAK_MARK_UM: Final = 12.5, 7.5
+"""Depth of the line where a cut goes on behind a broken wire, and half of its range: 5 to 20 µm. US 4 506 129 and Sato
+et al., Wire-break Prevention, say that there is one; the figure is assumed."""
+_LEAST_MARK_UM: Final = 0.5
+_NEAR_MARK_UM: Final = 150.0
+_WITHIN: Final = 0.5  # of its depth a mark may be more or less: nobody has measured the law
+_MARKING: Final = (ticks.SHORT, ticks.BREAK, ticks.POWER, ticks.PAUSE)
+
+
+class Mark(NamedTuple):
+    """A place where the wall is washed out more than round about, by `depth_um` ± `within_um`."""
+
+    row: int
+    place_um: Point
+    depth_um: float
+    within_um: float
+
+
+class Widened(NamedTuple):
+    """By how much the gap is wider: in each stretch of path, and as the mean of each row."""
+
+    at_um: Floats
+    by_row_um: Floats
+
+
+def usual_gap_um(spark: Spark) -> float:
+    """Gap to the front at the usual set value of the law by mean voltage: the gap at the walls is known for its feed.
+
+    A middling gap where the pulses are such that none has this voltage.
+    """
+    found = settled_gap_um(spark._replace(law="voltage"), PRESETS["voltage"].set_value)
+    return ticks.FAR_UM / 4.0 if found is None else found
+
+
+def walls_of(work: Work, rows: CutRows, spark: Spark, stretch_um: float) -> Walls:
+    """What the walls of a cut are held against."""
+    widths = rows.way.width_um.tolist()
+    feeds = {each: _usual_feed_um_s(spark, each, work.height_um) for each in set(widths)}
+    return Walls(
+        usual_s=np.array([stretch_um / feeds[each] if each else 0.0 for each in widths]),
+        gap_um=work.gap_um[rows.row].astype(np.float64),
+        stretch_um=stretch_um,
+        half=max(int(work.wire_um / stretch_um) // 2, 1),
+    )
+
+
+def widened(walls: Walls, way: Way, records: Records) -> Widened:
+    """By how much the gap at the walls is wider than usual, by the time with sparks in each stretch."""
+    wider, n = np.zeros(len(records.lit_s)), len(walls.usual_s)
+    if not n:
+        return Widened(wider, np.zeros(0))
+    widen(walls, way.along_um, records.lit_s, wider)
+    at_um = np.arange(len(wider)) * walls.stretch_um
+    row = np.clip(np.searchsorted(way.along_um, at_um, side="right") - 1, 0, n - 1)
+    sums, counts = np.bincount(row, wider, n), np.bincount(row, None, n)
+    return Widened(wider, np.divide(sums, counts, out=np.zeros(n), where=counts > 0))
+
+
+def _usual_feed_um_s(spark: Spark, width_um: float, height_um: float) -> float:
+    """Feed at the usual gap; of what cuts nothing none."""
+    return steady(spark, usual_gap_um(spark), width_um, height_um).feed_um_s if width_um > 0.0 else 0.0
+
+
+def marks_of(work: Work, rows: CutRows, log: Sequence[Sequence[float]], walls: Walls, wider: Widened) -> Iterator[Mark]:
+    """Marks where a stop or a way back shows: the widest place near it beside the mean of its block.
+
+    Behind a broken wire there is a line of another cause, of which only its usual depth is known. Marks that run into
+    one another are one.
+    """
+    past_um = -math.inf
+    for _, at, kind, _ in log:
+        if int(kind) not in _MARKING:
+            continue
+        found = standing(work, rows, at)
+        index = int(np.searchsorted(rows.row, found.counters.row))
+        low, high = rows.way.along_um[index : index + 2].tolist()
+        along_um = low + (high - low) * found.counters.made / int(work.steps.count[found.counters.row])
+        if along_um < past_um:
+            continue
+        if int(kind) == ticks.BREAK:
+            past_um = along_um + _NEAR_MARK_UM
+            yield Mark(found.counters.row, found.place_um, *BREAK_MARK_UM)
+            continue
+        middle, near = int(along_um / walls.stretch_um), int(_NEAR_MARK_UM / walls.stretch_um)
+        widest = wider.at_um[max(middle - near, 0) : middle + near + 1].max(initial=0.0)
+        depth_um = float(widest - wider.by_row_um[index])
+        if depth_um >= _LEAST_MARK_UM:
+            past_um = along_um + 2.0 * _NEAR_MARK_UM
+            yield Mark(found.counters.row, found.place_um, depth_um, _WITHIN * depth_um)

@@ -1,0 +1,75 @@
+"""A run under sparks: what is cut of its program, and what is told where the control stops."""
+
+from collections.abc import Iterator, Sequence
+from typing import Final
+
+from controller.stepping.steps import Steps, interpolate, words_of
+from parser.dialect.reader import at_block
+from parser.findings.errors import SettingsError
+from parser.findings.findings import Finding
+from parser.geometry.curves import Floats
+from parser.program import Program
+from parser.toolpath import Toolpath
+from parser.units import from_mm
+from sim.check.result import CheckState
+from sim.measure.passes import PassFigures
+from sim.process.cut import ProcessRun, Started, run_sparks, started
+from sim.process.way import Work, is_cut, is_cut_again
+from sim.run.dryrun import DryRun
+from sim.setup.scenario import Scenario
+from sim.setup.spark import Spark
+
+_SPARKS: Final = "check-sparks"
+
+
+def work_of(
+    toolpath: Toolpath, steps: Steps, scenario: Scenario, figures: Sequence[PassFigures], reach_um: Floats
+) -> Work:
+    """What a control under sparks cuts of a path; `reach_um` (n,) is half the width of the kerf in each row.
+
+    A block cuts as wide as its kerf, one of a later pass what that takes off, and one that goes back over a line that
+    was cut before cuts nothing.
+    """
+    width_um = 2.0 * reach_um
+    for each in figures:
+        if each.of.number > 1 and not each.of.is_tab and each.stock is not None:
+            width_um[each.of.first : each.of.last + 1] = each.stock.mean_um
+    width_um[is_cut_again(toolpath)] = 0.0
+    gap_um = reach_um - scenario.wire.radius_um
+    height_um, wire_um = from_mm(scenario.thickness_mm), scenario.wire.diameter_um
+    return Work(steps, words_of(toolpath), toolpath, width_um, gap_um, height_um, wire_um)
+
+
+def under_sparks(work: Work, scenario: Scenario) -> ProcessRun | None:
+    """Work cut under the sparks of a scenario, None without. SettingsError for an event in no block that is cut."""
+    if scenario.spark is None:
+        return None
+    _refuse_elsewhere(work, scenario)
+    return run_sparks(work, scenario.spark, scenario.events)
+
+
+def panel_cut(run: DryRun, scenario: Scenario) -> Started:
+    """The cut of a run at its start, for who drives it, by the sparks of a scenario; SettingsError as above."""
+    steps = interpolate(run.toolpath)
+    work = work_of(run.toolpath, steps, scenario, run.pass_figures, run.reach_um)
+    _refuse_elsewhere(work, scenario)
+    return started(work, scenario.spark or Spark(), scenario.events)
+
+
+def _refuse_elsewhere(work: Work, scenario: Scenario) -> None:
+    for at, event in enumerate(scenario.events, start=1):
+        if event.block is not None and not is_cut(work.toolpath, work.steps, event.block):
+            raise SettingsError("event-block-not-cut", at=at, block=event.block, blocks=len(work.toolpath))
+
+
+def stop_findings(program: Program, process: ProcessRun) -> Iterator[Finding]:
+    """Finding 3B609 where the control stops before the program is through."""
+    stopped = process.stopped
+    if stopped is not None:
+        why = f"stop-{stopped.kind}"
+        yield at_block(program.toolpath, program.lines, "3B609", stopped.row, time_s=stopped.t_s, why=why)
+
+
+def state_of(process: ProcessRun) -> CheckState:
+    """How far the cut under sparks came."""
+    return CheckState(_SPARKS) if process.stopped is None else CheckState(_SPARKS, "incomplete", "reason-sparks")

@@ -1,0 +1,62 @@
+"""A cut under sparks in rows for people: on the terminal."""
+
+from parser.text.source import BlockNames
+from parser.units import mm
+from sim.base.units import in_figures
+from sim.process.cut import ProcessRun
+from sim.show.texts import Words
+from sim.show.texts.phrases import catalogued, lasting
+
+
+def spark_rows(process: ProcessRun | None, names: BlockNames, tell: Words) -> list[tuple[str, str]]:
+    """Names and figures of a cut; none without one."""
+    if process is None:
+        return []
+    mean = process.mean
+    figures = tell(
+        "sparks.figures",
+        gap=f"{mean.gap_um:.1f}",
+        share=f"{100.0 * mean.voltage_share:.0f}",
+        open=f"{process.spark.open_v:g}",
+        feed=f"{mm(mean.feed_um_s) * 60.0:.3g}",
+        rate=f"{mean.area_rate_mm2_min:.3g}",
+    )
+    time = getattr(lasting(process.time_s), tell.language)
+    if process.lost_s:
+        time = tell("sparks.time-lost", time=time, lost=lasting(process.lost_s))
+    return [
+        (tell("sparks.cut"), figures),
+        (tell("sparks.time"), time),
+        *_happened(process, tell),
+        *_marks(process, names, tell),
+        *_stopped(process, names, tell),
+    ]
+
+
+def _happened(process: ProcessRun, tell: Words) -> list[tuple[str, str]]:
+    if not process.shorts and not process.breaks:
+        return []
+    back = f"{mm(process.retreated_um):.3f}"
+    text = tell("sparks.happened-of", shorts=process.shorts, back=back, breaks=process.breaks)
+    return [(tell("sparks.happened"), text)]
+
+
+def _marks(process: ProcessRun, names: BlockNames, tell: Words) -> list[tuple[str, str]]:
+    if not process.marks:
+        return []
+    deepest = max(process.marks, key=lambda mark: mark.depth_um)
+    depth, within = in_figures(deepest.depth_um), in_figures(deepest.within_um)
+    block, count = names.of_row(deepest.row), len(process.marks)
+    return [(tell("sparks.marks"), tell("sparks.marks-of", count=count, depth=depth, within=within, block=block))]
+
+
+def _stopped(process: ProcessRun, names: BlockNames, tell: Words) -> list[tuple[str, str]]:
+    stopped = process.stopped
+    if stopped is None:
+        return []
+    where = {
+        "block": names.of_row(stopped.row),
+        "time": lasting(stopped.t_s),
+        "why": catalogued(f"stop-{stopped.kind}"),
+    }
+    return [(tell("sparks.stopped"), tell("sparks.stopped-of", **where))]
