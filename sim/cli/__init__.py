@@ -34,6 +34,7 @@ _COMMANDS = {
     "lsp": "sim.cli.lsp",
     "machine": "sim.cli.machine",
     "open": "sim.cli.open",
+    "panel": "sim.cli.panel",
     "program": "sim.cli.program",
     "replay": "sim.cli.replay",
     "run": "sim.cli.run",

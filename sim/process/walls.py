@@ -60,6 +60,7 @@ def walls_of(work: Work, rows: CutRows, spark: Spark, stretch_um: float) -> Wall
     return Walls(
         usual_s=np.array([stretch_um / feeds[each] if each else 0.0 for each in widths]),
         gap_um=work.gap_um[rows.row].astype(np.float64),
+        start_um=rows.way.thread_um + ticks.FAR_UM + work.wire_um / 2.0,
         stretch_um=stretch_um,
         half=max(int(work.wire_um / stretch_um) // 2, 1),
     )

@@ -11,8 +11,11 @@ from old_browser import missing, old_page
 from opened_page import opened_page
 from replayed import recording_of
 from report_pages import PART, made
+from runs import scenario_run
 from sittings import page as lesson
 
+from sim.run.sparks import panel_cut
+from sim.show.panel_page.page import panel_page
 from sim.show.replay.document import replay_page
 
 if TYPE_CHECKING:
@@ -107,6 +110,15 @@ def test_a_lesson_is_begun_and_a_block_is_marked(page: "Page", tmp_path: Path) -
     page.evaluate("document.querySelector('.step:not(.aside-now) .check').click()")
     assert text(page, "#who") == "王小明 · 1"
     assert page.evaluate("document.querySelectorAll('.step:not(.aside-now) .words li').length") == 5
+    assert text(page, "#too-old") == ""
+
+
+def test_a_panel_cuts(page: "Page", tmp_path: Path) -> None:
+    run = scenario_run("sparks-chip")
+    opened(page, panel_page(run.scenario, panel_cut(run, run.scenario)), tmp_path)
+    waits_for(page, "Number(document.querySelector('#out-j').textContent) < 1800")
+    page.evaluate("document.querySelector('#key-tear').click()")
+    waits_for(page, "!document.querySelector('#alarm').hidden")
     assert text(page, "#too-old") == ""
 
 

@@ -1,19 +1,50 @@
-"""Writes the script by which lessons read, step and mark 3B, from `sim/teach/plain`: `make pages`.
+"""Writes scripts of pages from plain Python: `make pages`.
+
+Lessons read, step and mark 3B by `sim/teach/plain`; the panel of a control under sparks goes by `sim/process/ticks`.
 
 It knows the part of Python that those files are written in, and refuses all else: functions of positional parameters,
-named tuples, lists, numbers, texts, `math`. Numbers are doubles; what is divided with a rest is never negative.
+named tuples, lists, arrays, numbers, texts, `math`. Numbers are doubles; what is divided with a rest is never negative.
+That a function is a compiled loop is no matter of a script.
 """
 
 import ast
 from collections.abc import Iterator
 from pathlib import Path
+from typing import NamedTuple
 
 ROOT = Path(__file__).parents[2]
-SOURCE = ROOT / "sim" / "teach" / "plain"
-ASSETS = ROOT / "sim" / "show" / "lesson_page" / "assets"
-MODULES = ("blocks", "curves", "stepping", "tasks", "marks", "program", "answers", "rules")
-PACKAGE = "sim.teach.plain."
-TYPES = {"int": "number", "float": "number", "str": "string", "bool": "boolean"}
+
+
+class Package(NamedTuple):
+    """A package of plain modules, and the page whose script they become."""
+
+    name: str
+    modules: tuple[str, ...]
+    page: str
+
+    @property
+    def folder(self) -> Path:
+        return ROOT.joinpath(*self.name.split("."))
+
+    @property
+    def assets(self) -> Path:
+        return ROOT / "sim" / "show" / self.page / "assets"
+
+
+PACKAGES = (
+    Package(
+        "sim.teach.plain",
+        ("blocks", "curves", "stepping", "tasks", "marks", "program", "answers", "rules"),
+        "lesson_page",
+    ),
+    Package(
+        "sim.process.ticks",
+        ("state", "chance", "gap", "servo", "log", "events", "watch", "tick", "walls"),
+        "panel_page",
+    ),
+)
+LOOPS = {"compiled", "loop_part"}
+TYPES = {"int": "number", "float": "number", "str": "string", "bool": "boolean", "Floats": "Float64Array"}
 OPERATORS: dict[type, str] = {
     **{ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", ast.Mod: "%"},
     **{ast.Eq: "===", ast.NotEq: "!==", ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">="},
@@ -25,8 +56,13 @@ METHODS = {"append": "push", "replace": "replaceAll", "find": "indexOf", "split"
 
 
 def scripts() -> Iterator[tuple[Path, str]]:
-    """Each file of the script, and what it is to hold."""
-    trees = {name: ast.parse((SOURCE / f"{name}.py").read_text("utf-8")) for name in MODULES}
+    """Each file of the scripts, and what it is to hold."""
+    for package in PACKAGES:
+        yield from _scripts_of(package)
+
+
+def _scripts_of(package: Package) -> Iterator[tuple[Path, str]]:
+    trees = {name: ast.parse((package.folder / f"{name}.py").read_text("utf-8")) for name in package.modules}
     fields = {
         node.name: [item.target.id for item in node.body if isinstance(item, ast.AnnAssign)]  # type: ignore[union-attr]
         for tree in trees.values()
@@ -34,20 +70,20 @@ def scripts() -> Iterator[tuple[Path, str]]:
         if isinstance(node, ast.ClassDef)
     }
     for name, tree in trees.items():
-        yield ASSETS / f"plain_{name}.js", _Module(tree, fields).text(name)
+        yield package.assets / f"plain_{name}.js", _Module(tree, fields, package.name).text(name)
 
 
 class _Module:
     """A file of Python as one of script."""
 
-    def __init__(self, tree: ast.Module, fields: dict[str, list[str]]) -> None:
-        self._tree, self._fields = tree, fields
+    def __init__(self, tree: ast.Module, fields: dict[str, list[str]], package: str) -> None:
+        self._tree, self._fields, self._package = tree, fields, package
 
     def text(self, name: str) -> str:
         body, types, values = [], [], []
         for node in self._tree.body:
-            if isinstance(node, ast.ImportFrom) and (node.module or "").startswith(PACKAGE):
-                file = f'"./plain_{(node.module or "").removeprefix(PACKAGE)}.js"'
+            if isinstance(node, ast.ImportFrom) and (node.module or "").startswith(f"{self._package}."):
+                file = f'"./plain_{(node.module or "").removeprefix(f"{self._package}.")}.js"'
                 names = [alias.name for alias in node.names]
                 if used := [each for each in names if self._is_value(each)]:
                     values.append(f"import {{ {', '.join(used)} }} from {file};")
@@ -59,7 +95,7 @@ class _Module:
                 body.append(self._tuple(node))
             elif isinstance(node, ast.FunctionDef):
                 body.append(self._function(node))
-        head = f"// Written by `make pages` from sim/teach/plain/{name}.py."
+        head = f"// Written by `make pages` from {self._package.replace('.', '/')}/{name}.py."
         return "\n".join([head, *values, *types]) + "\n\n" + "\n\n".join(body) + "\n"
 
     def _is_value(self, name: str) -> bool:
@@ -88,7 +124,14 @@ class _Module:
 
     def _function(self, node: ast.FunctionDef) -> str:
         args = [(arg.arg, self._type(arg.annotation)) for arg in node.args.args]
-        if node.args.kwonlyargs or node.args.defaults or node.args.vararg or node.decorator_list:
+        loops = [
+            each.func.id
+            for each in node.decorator_list
+            if isinstance(each, ast.Call) and isinstance(each.func, ast.Name)
+        ]
+        if node.args.kwonlyargs or node.args.defaults or node.args.vararg or len(loops) < len(node.decorator_list):
+            raise SyntaxError(f"{node.name}: positional parameters alone")
+        if set(loops) - LOOPS:
             raise SyntaxError(f"{node.name}: positional parameters alone")
         what = (ast.get_docstring(node) or "").split("\n")[0]
         docs = [f" * {what}"] if what else []
@@ -187,11 +230,13 @@ class _Module:
             raise SyntaxError(ast.unparse(node))
         if isinstance(node.func, ast.Attribute) and not name.startswith("math."):
             return self._method(node.func, args)
-        if name in {"len", "ord", "int", "float"}:
+        if name in {"len", "ord", "int", "float", "bool"}:
             of = self._within(node.args[0])
-            return {"len": f"{of}.length", "ord": f"(/** @type {{number}} */ ({of}.codePointAt(0)))"}.get(
-                name, f"Number({args[0]})" if name == "float" else f"Math.trunc(Number({args[0]}))"
-            )
+            return {
+                "len": f"{of}.length",
+                "bool": f"Boolean({args[0]})",
+                "ord": f"(/** @type {{number}} */ ({of}.codePointAt(0)))",
+            }.get(name, f"Number({args[0]})" if name == "float" else f"Math.trunc(Number({args[0]}))")
         return f"{CALLS.get(name, name.replace('math.', 'Math.'))}({', '.join(args)})"
 
     def _method(self, func: ast.Attribute, args: list[str]) -> str:
@@ -244,10 +289,10 @@ class _Body:
         return "let" if name in self._often else "const"
 
     def _assigned(self, target: ast.expr, text: str, pad: str) -> list[str]:
-        """Set a name, or several of a list."""
-        names = [node.id for node in ast.walk(target) if isinstance(node, ast.Name)]
+        """Set a name, several of a list, or an entry of an array."""
+        names = _own_names(target)
         written = self._module._value(target)
-        if any(name in self._names for name in names):
+        if not names or any(name in self._names for name in names):
             return [f"{pad}{written} = {text};"]
         self._names.update(names)
         word = "let" if any(self._word(name) == "let" for name in names) else "const"
@@ -301,8 +346,14 @@ class _Body:
 def _names_set(body: list[ast.stmt]) -> set[str]:
     """Names that statements set, those within others too."""
     nodes = (node for statement in body for node in ast.walk(statement) if isinstance(node, ast.Assign))
-    targets = (target for node in nodes for target in node.targets)
-    return {name.id for target in targets for name in ast.walk(target) if isinstance(name, ast.Name)}
+    return {name for node in nodes for target in node.targets for name in _own_names(target)}
+
+
+def _own_names(target: ast.expr) -> list[str]:
+    """Names that are set: what stands in the brackets of an entry, and the array itself, are not."""
+    if isinstance(target, ast.Tuple):
+        return [name for each in target.elts for name in _own_names(each)]
+    return [target.id] if isinstance(target, ast.Name) else []
 
 
 def _set_again(node: ast.FunctionDef) -> set[str]:
@@ -313,9 +364,8 @@ def _set_again(node: ast.FunctionDef) -> set[str]:
         if isinstance(inner, ast.AugAssign | ast.AnnAssign):
             targets = [inner.target]
         for target in targets:
-            for name in ast.walk(target):
-                if isinstance(name, ast.Name):
-                    counts[name.id] = counts.get(name.id, 0) + 1
+            for name in _own_names(target):
+                counts[name] = counts.get(name, 0) + 1
     return {name for name, count in counts.items() if count > 1}
 
 

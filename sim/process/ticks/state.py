@@ -257,11 +257,14 @@ class Walls(NamedTuple):
     ----------
     usual_s, gap_um
         (k,) time that a stretch takes at the usual feed, 0 where nothing is cut, and the gap at the walls then.
+    start_um
+        (k,) µm of path before the first wall: up to there the wire goes through its start hole.
     stretch_um, half
         Length of a stretch, and how many of them before and behind a wall is in reach of.
     """
 
     usual_s: Floats
     gap_um: Floats
+    start_um: Floats
     stretch_um: float
     half: int

@@ -21,17 +21,20 @@ def side_gap_ratio(time_ratio: float) -> float:
 def widen(walls: Walls, along_um: Floats, lit_s: Floats, wider_um: Floats) -> None:
     """Fill in (m,) by how much the gap is wider in each stretch of path, µm; 0 where nothing was cut.
 
-    `along_um` (n + 1,) is the path before each row, `lit_s` (m,) the time with sparks in each stretch.
+    What is not cut counts for nothing: a stretch beside it has the time of its other neighbours. `along_um` (n + 1,) is
+    the path before each row, `lit_s` (m,) the time with sparks in each stretch.
     """
     count, row, last = len(lit_s), 0, len(walls.usual_s) - 1
     for at in range(count):
         while row < last and at * walls.stretch_um >= along_um[row + 1]:
             row += 1
         low, high = max(at - walls.half, 0), min(at + walls.half + 1, count)
-        seconds = 0.0
+        seconds, cut = 0.0, 0
         for near in range(low, high):
-            seconds += lit_s[near]
+            if lit_s[near] > 0.0:
+                seconds += lit_s[near]
+                cut += 1
         wider_um[at] = 0.0
-        if walls.usual_s[row] > 0.0 and seconds > 0.0:
-            times = seconds / (high - low) / walls.usual_s[row]
+        if walls.usual_s[row] > 0.0 and cut > 0 and at * walls.stretch_um >= walls.start_um[row]:
+            times = seconds / cut / walls.usual_s[row]
             wider_um[at] = max(walls.gap_um[row], 0.0) * (side_gap_ratio(times) - 1.0)

@@ -1,0 +1,163 @@
+// Written by `make pages` from sim/process/ticks/events.py.
+import { place_um } from "./plain_gap.js";
+import { note } from "./plain_log.js";
+import { AREA_RATE, AT, BREAK, BREAK_UM, BREAKS, BREAKS_HERE, BUSY_US, CHIP_CLEAR_UM, CHIP_UM, CHIP_UNTIL, CHIPS, CHIPS_FACTOR, CHIPS_UNTIL, DRUM_OFF, DRUMLESS_UNTIL, HOLD_UNTIL, KNOB, LOST_TICKS, NEXT_BY_STEP, NEXT_BY_TIME, PAUSE, POWER, POWER_OUT, PROGRESS_TICK, PUMP_OFF, PUMPLESS_UNTIL, RESET_UM_S, RESIDUE, ROW, SET_SHARE, SHORT, SPARKLESS_UNTIL, SPARKS_OFF, TICK_S, TICKS, UNCOOLED_TICKS, WIRE_OUT } from "./plain_state.js";
+/** @import { Job } from "./plain_state.js" */
+
+const _SAME_PLACE_UM = 1000.0;
+
+/**
+ * Let time go by without sparks.
+ * @param {Float64Array} state
+ * @param {number} seconds
+ * @returns {void}
+ */
+export function stand(state, seconds) {
+  const ticks = Math.floor((seconds / TICK_S) + 0.5);
+  state[TICKS] += ticks;
+  state[LOST_TICKS] += ticks;
+  state[PROGRESS_TICK] = state[TICKS];
+  state[BUSY_US] = 0.0;
+  state[RESET_UM_S] = 0.0;
+  state[RESIDUE] = 0.0;
+}
+
+/**
+ * Thread a broken wire, in place or at the start, from where it goes through the slot again.
+ * @param {Job} job
+ * @param {Float64Array} state
+ * @param {number} is_from_start
+ * @returns {void}
+ */
+export function thread_wire(job, state, is_from_start) {
+  const back_um = place_um(job, state) - job.way.thread_um[Math.trunc(Number(state[ROW]))];
+  stand(state, job.bounds.thread_s + (((2.0 * back_um) * is_from_start) / job.bounds.jog_um_s));
+  state[PUMPLESS_UNTIL] = 0.0;
+  state[DRUMLESS_UNTIL] = 0.0;
+  state[UNCOOLED_TICKS] = 0.0;
+  state[AREA_RATE] = 0.0;
+  state[WIRE_OUT] = 0.0;
+}
+
+/**
+ * Let the wire break: it is threaded at once, or waits for somebody who does it.
+ * @param {Job} job
+ * @param {Float64Array} state
+ * @returns {void}
+ */
+export function tear_wire(job, state) {
+  note(job, state, BREAK, 0.0);
+  state[BREAKS] += 1.0;
+  const place = place_um(job, state);
+  const is_here = (state[BREAKS_HERE] > 0.0) && ((place - state[BREAK_UM]) < _SAME_PLACE_UM);
+  state[BREAKS_HERE] = is_here ? (state[BREAKS_HERE] + 1.0) : 1.0;
+  state[BREAK_UM] = (state[BREAKS_HERE] === 1.0) ? place : state[BREAK_UM];
+  state[WIRE_OUT] = 1.0;
+  if (job.bounds.is_manned === 0.0) {
+    thread_wire(job, state, job.bounds.is_from_start);
+  }
+}
+
+/**
+ * Go on after a power loss: at the step where it came, or at the begin of the block.
+ * @param {Job} job
+ * @param {Float64Array} state
+ * @param {number} remembers
+ * @returns {void}
+ */
+export function restart(job, state, remembers) {
+  stand(state, job.bounds.restart_s);
+  state[POWER_OUT] = 0.0;
+  if (remembers === 0.0) {
+    state[AT] = job.way.before[Math.trunc(Number(state[ROW]))];
+  }
+}
+
+/**
+ * Let the power fail, and wait for somebody who switches it on.
+ * @param {Job} job
+ * @param {Float64Array} state
+ * @returns {void}
+ */
+export function cut_power(job, state) {
+  note(job, state, POWER, 1.0);
+  state[POWER_OUT] = 1.0;
+}
+
+/**
+ * Turn a switch or the knob, or let chips gather, until a tick.
+ * @param {Float64Array} state
+ * @param {number} kind
+ * @param {number} until
+ * @param {number} size
+ * @returns {void}
+ */
+export function turn_switch(state, kind, until, size) {
+  if (kind === CHIPS) {
+    state[CHIPS_UNTIL] = until;
+    state[CHIPS_FACTOR] = size;
+  } else if (kind === PAUSE) {
+    state[HOLD_UNTIL] = until;
+  } else if (kind === SPARKS_OFF) {
+    state[SPARKLESS_UNTIL] = until;
+  } else if (kind === PUMP_OFF) {
+    state[PUMPLESS_UNTIL] = until;
+  } else if (kind === DRUM_OFF) {
+    state[DRUMLESS_UNTIL] = until;
+  } else if (kind === KNOB) {
+    state[SET_SHARE] = size;
+  }
+}
+
+/**
+ * Let one of the happenings begin.
+ * @param {Job} job
+ * @param {Float64Array} state
+ * @param {number} at
+ * @returns {void}
+ */
+export function happen(job, state, at) {
+  const kind = job.happenings.kind[at];
+  const size = job.happenings.size[at];
+  const seconds = job.happenings.for_s[at];
+  const until = state[TICKS] + Math.floor((seconds / TICK_S) + 0.5);
+  if (kind === BREAK) {
+    tear_wire(job, state);
+    return;
+  }
+  if (kind === SHORT) {
+    state[CHIP_UM] = place_um(job, state);
+    state[CHIP_CLEAR_UM] = size;
+    state[CHIP_UNTIL] = until;
+    return;
+  }
+  if (kind === POWER) {
+    cut_power(job, state);
+    if (job.bounds.is_manned === 0.0) {
+      restart(job, state, size);
+    }
+    return;
+  }
+  note(job, state, kind, size);
+  turn_switch(state, kind, until, size);
+}
+
+/**
+ * Begin what happens at this step, and at this time.
+ * @param {Job} job
+ * @param {Float64Array} state
+ * @returns {void}
+ */
+export function let_happen(job, state) {
+  const happenings = job.happenings;
+  const by_step = Math.trunc(Number(happenings.by_step[0]));
+  while ((state[NEXT_BY_STEP] < by_step) && (happenings.at[Math.trunc(Number(state[NEXT_BY_STEP]))] <= state[AT])) {
+    state[NEXT_BY_STEP] += 1.0;
+    happen(job, state, Math.trunc(Number(state[NEXT_BY_STEP])) - 1);
+  }
+  const count = happenings.at.length - by_step;
+  while ((state[NEXT_BY_TIME] < count) && (happenings.at[by_step + Math.trunc(Number(state[NEXT_BY_TIME]))] <= state[TICKS])) {
+    state[NEXT_BY_TIME] += 1.0;
+    happen(job, state, (by_step + Math.trunc(Number(state[NEXT_BY_TIME]))) - 1);
+  }
+}

@@ -1,0 +1,119 @@
+// Written by `make pages` from sim/process/ticks/gap.py.
+import { mean_delay_us, random_normal, random_share } from "./plain_chance.js";
+import { AT, BUSY_US, CHIP_CLEAR_UM, CHIP_UM, CHIP_UNTIL, FAR_ROW, FAR_UM, FARTHEST, FRONT_UM, GAP_UM, ON_US, OPEN_US, REMOVED_UM3, ROW, SHORT_US, SPARKLESS_UNTIL, TICK_SPARKS, TICK_US, TICKS } from "./plain_state.js";
+/** @import { Job } from "./plain_state.js" */
+
+/**
+ * Path in one step of a block, µm.
+ * @param {Job} job
+ * @param {number} row
+ * @returns {number}
+ */
+export function step_um(job, row) {
+  const steps = job.way.before[row + 1] - job.way.before[row];
+  return Number((job.way.along_um[row + 1] - job.way.along_um[row]) / steps);
+}
+
+/**
+ * Path from its start to a step in a block, µm.
+ * @param {Job} job
+ * @param {number} row
+ * @param {number} at
+ * @returns {number}
+ */
+export function path_to_um(job, row, at) {
+  return Number(job.way.along_um[row] + ((at - job.way.before[row]) * step_um(job, row)));
+}
+
+/**
+ * Path from its start to the wire, µm.
+ * @param {Job} job
+ * @param {Float64Array} state
+ * @returns {number}
+ */
+export function place_um(job, state) {
+  return path_to_um(job, Math.trunc(Number(state[ROW])), state[AT]);
+}
+
+/**
+ * Find the gap at a place. Where nothing is cut, the front goes with the wire; so it does in a start hole.
+ * @param {Job} job
+ * @param {Float64Array} state
+ * @param {number} place
+ * @returns {void}
+ */
+export function look(job, state, place) {
+  const far_row = Math.trunc(Number(state[FAR_ROW]));
+  const is_threaded = (state[FARTHEST] === job.way.before[far_row]) && (job.way.thread_um[far_row] === job.way.along_um[far_row]);
+  if (is_threaded || (job.way.width_um[far_row] <= 0.0)) {
+    state[FRONT_UM] = Math.max(state[FRONT_UM], place + FAR_UM);
+  }
+  state[GAP_UM] = Math.min(state[FRONT_UM] - place, FAR_UM);
+}
+
+/**
+ * Whether the wire touches the work, or a chip that lies between; farther back than that the chip is washed out.
+ * @param {Float64Array} state
+ * @param {number} place
+ * @returns {boolean}
+ */
+export function is_shorted(state, place) {
+  if (state[TICKS] < state[CHIP_UNTIL]) {
+    if (place > (state[CHIP_UM] - state[CHIP_CLEAR_UM])) {
+      return true;
+    }
+    state[CHIP_UNTIL] = 0.0;
+  }
+  return Boolean(state[GAP_UM] <= 0.0);
+}
+
+/**
+ * The sparks of one tick, at one place: what the control sees of them, and the front that recedes.
+ * @param {Job} job
+ * @param {Float64Array} state
+ * @param {number} place
+ * @returns {void}
+ */
+export function let_spark(job, state, place) {
+  state[OPEN_US] = 0.0;
+  state[ON_US] = 0.0;
+  state[SHORT_US] = 0.0;
+  state[TICK_SPARKS] = 0.0;
+  if (is_shorted(state, place)) {
+    state[SHORT_US] = TICK_US;
+    state[BUSY_US] = 0.0;
+    return;
+  }
+  if (state[TICKS] < state[SPARKLESS_UNTIL]) {
+    state[BUSY_US] = 0.0;
+    return;
+  }
+  if (state[GAP_UM] >= FAR_UM) {
+    state[OPEN_US] = TICK_US;
+    state[BUSY_US] = 0.0;
+    return;
+  }
+  const discharge = job.discharge;
+  const face_um2 = job.way.width_um[Math.trunc(Number(state[FAR_ROW]))] * discharge.height_um;
+  let at_us = state[BUSY_US];
+  while (at_us < TICK_US) {
+    const delay = (-mean_delay_us(state[GAP_UM])) * Math.log(random_share(state));
+    if ((at_us + delay) >= TICK_US) {
+      state[OPEN_US] += TICK_US - at_us;
+      state[BUSY_US] = 0.0;
+      return;
+    }
+    state[OPEN_US] += delay;
+    state[ON_US] += discharge.on_us;
+    state[TICK_SPARKS] += 1.0;
+    at_us += (delay + discharge.on_us) + discharge.off_us;
+    if (face_um2 > 0.0) {
+      const crater = Math.max(discharge.crater_um3 + (discharge.spread_um3 * random_normal(state)), 0.0);
+      state[REMOVED_UM3] += crater;
+      const deeper = crater / face_um2;
+      state[FRONT_UM] += deeper;
+      state[GAP_UM] = Math.min(state[GAP_UM] + deeper, FAR_UM);
+    }
+  }
+  state[BUSY_US] = at_us - TICK_US;
+}

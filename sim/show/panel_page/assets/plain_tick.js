@@ -1,0 +1,100 @@
+// Written by `make pages` from sim/process/ticks/tick.py.
+import { let_happen, tear_wire } from "./plain_events.js";
+import { let_spark, look, place_um } from "./plain_gap.js";
+import { note, record } from "./plain_log.js";
+import { move, way_of_law } from "./plain_servo.js";
+import { AT, BREAKS_AGAIN, BREAKS_HERE, BROKEN, FINISHED, HAND_UM, HOLD_UNTIL, IN_VAIN, IS_BY_HAND, LOST_TICKS, POWER_OUT, POWERLESS, PROGRESS_TICK, REMOVED_UM3, RUNNING, SHORT_TICKS, SHORTED, STALLED, STOPPED, TICK_S, TICKS, WIRE_OUT } from "./plain_state.js";
+import { breaks, watch_short } from "./plain_watch.js";
+/** @import { Job } from "./plain_state.js" */
+
+const _STALL_TICKS = 600000.0;
+
+const _MOST_BREAKS_HERE = 5.0;
+
+/**
+ * Way that a tick makes, µm: by hand, none while the feed is held, else by the law.
+ * @param {Job} job
+ * @param {Float64Array} state
+ * @returns {number}
+ */
+export function way_of_tick(job, state) {
+  if (state[IS_BY_HAND] > 0.0) {
+    state[PROGRESS_TICK] = state[TICKS];
+    return Number(state[HAND_UM]);
+  }
+  if (state[TICKS] < state[HOLD_UNTIL]) {
+    state[LOST_TICKS] += 1.0;
+    state[PROGRESS_TICK] = state[TICKS];
+    return 0.0;
+  }
+  return way_of_law(job, state);
+}
+
+/**
+ * What a cut waits for: somebody to thread the wire, or to switch the power on; else `RUNNING`.
+ * @param {Float64Array} state
+ * @returns {number}
+ */
+export function waits_for(state) {
+  if (state[WIRE_OUT] > 0.0) {
+    return (state[BREAKS_HERE] >= _MOST_BREAKS_HERE) ? BREAKS_AGAIN : BROKEN;
+  }
+  return (state[POWER_OUT] > 0.0) ? POWERLESS : RUNNING;
+}
+
+/**
+ * One tick: what happens, sparks, what the control makes of them; `RUNNING`, or why it stops.
+ * @param {Job} job
+ * @param {Float64Array} state
+ * @returns {number}
+ */
+export function tick(job, state) {
+  let_happen(job, state);
+  const waiting = waits_for(state);
+  if (waiting !== RUNNING) {
+    return waiting;
+  }
+  const place = place_um(job, state);
+  look(job, state, place);
+  const removed = state[REMOVED_UM3];
+  let_spark(job, state, place);
+  watch_short(job, state);
+  record(job, state);
+  if (breaks(job, state, state[REMOVED_UM3] - removed)) {
+    tear_wire(job, state);
+    return (state[BREAKS_HERE] >= _MOST_BREAKS_HERE) ? BREAKS_AGAIN : waits_for(state);
+  }
+  const is_in_vain = move(job, state, way_of_tick(job, state)) && (state[IS_BY_HAND] === 0.0);
+  state[TICKS] += 1.0;
+  if (is_in_vain) {
+    return IN_VAIN;
+  }
+  if (((state[SHORT_TICKS] * TICK_S) > job.bounds.short_s) && (state[IS_BY_HAND] === 0.0)) {
+    return SHORTED;
+  }
+  return ((state[TICKS] - state[PROGRESS_TICK]) > _STALL_TICKS) ? STALLED : RUNNING;
+}
+
+/**
+ * Run so many ticks at most: `FINISHED` at the end of the path, else what the last tick came to.
+ * @param {Job} job
+ * @param {Float64Array} state
+ * @param {number} most
+ * @returns {number}
+ */
+export function run_ticks(job, state, most) {
+  const end = job.way.before[job.way.before.length - 1];
+  for (let _ = 0; _ < most; _ += 1) {
+    if (state[AT] >= end) {
+      return FINISHED;
+    }
+    const came_to = tick(job, state);
+    if (came_to !== RUNNING) {
+      if (![BROKEN, POWERLESS].includes(came_to)) {
+        note(job, state, STOPPED, Number(came_to));
+      }
+      return came_to;
+    }
+  }
+  return RUNNING;
+}
