@@ -28,6 +28,7 @@ _LEVELS: "dict[str, Level]" = {"easy": "words", "medium": "picture", "hard": "su
 @click.option("--set", "number", type=WholeNumber(1, 9999), default=1, show_default=True)
 @click.option("--count", type=WholeNumber(1, 30), default=10, show_default=True)
 @click.option("--level", type=click.Choice(list(_LEVELS)))
+@click.option("--kind", type=click.Choice(["program", "operation"]), default="program", show_default=True)
 @with_dialect
 @click.option("--offset", "registers", type=RegisterValue(), multiple=True)
 def drill(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
@@ -36,6 +37,7 @@ def drill(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     number: int,
     count: int,
     level: str | None,
+    kind: str,
     dialect: "ChosenDialect | None",
     unit: str | None,
     registers: tuple[RegisterSet, ...],
@@ -45,6 +47,7 @@ def drill(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     \b
     drycut drill part.3b -o drills/
     drycut drill part.3b -o drills/ --set 17 --count 5 --level hard
+    drycut drill part.3b -o drills/ --kind operation
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     from parser.dialect.reader import Choices
     from sim.jobs.run_into import PAGES, drill_names, drills_into
@@ -52,6 +55,11 @@ def drill(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     from sim.teach.drills import DrillRequest
 
     choices = Choices(dialect=dialect or "", unit=unit or "", registers=registers)
+    if kind == "operation":
+        if level is not None:
+            raise click.UsageError(Message("level-of-programs"))
+        _drill_operation(path, choices, output, number, count)
+        return
     request = DrillRequest(number, count, None if level is None else _LEVELS[level])
     program = _read(path, choices)
     _refuse_own_file(path, output, program, count)
@@ -62,6 +70,26 @@ def drill(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
         say(words()("drill.few", name=program.name, made=len(drills), asked=count), err=True)
     say(_counts_text(program, drills, number))
     say(words()("commands.written", names=f"{output}/ {', '.join(PAGES)}, {names[0]} … {names[-1]}"))
+
+
+def _drill_operation(path: Path, choices: "Choices", output: Path, number: int, count: int) -> None:
+    """Drills of operation on a program, on the machine that runs are on."""
+    from dataclasses import replace
+
+    from sim.jobs.run_into import OPERATION_PAGES, operation_into
+    from sim.run.running import dry_run
+    from sim.run.sparks import panel_cut
+    from sim.setup.scenario import load_scenario, under_sparks
+    from sim.show.terminal.printer import say
+    from sim.teach.operation.incidents import operation_drills
+
+    scenario = load_scenario(path)
+    scenario = replace(scenario, dialect=choices.dialect, unit=choices.unit, registers=choices.registers)
+    cut = panel_cut(dry_run(_read(path, choices), scenario, measured=False), under_sparks(scenario))
+    drills = operation_drills(cut, number, count)
+    operation_into(output, scenario.titles, cut, drills, number)
+    say(words()("operation.told", count=len(drills), name=path.name, set=number))
+    say(words()("commands.written", names=f"{output}/ {', '.join(OPERATION_PAGES)}"))
 
 
 def _read(path: Path, choices: "Choices") -> "Program":

@@ -14,7 +14,7 @@ from types import MappingProxyType
 from typing import Final
 
 from controller.card.log import CardLog, CardLogError
-from parser.findings.catalogue import Language
+from parser.findings.catalogue import Bilingual, Language
 from parser.program import Program, usual_name
 from sim.base.files import StepFiles, staged
 from sim.base.progress import Progress, silent
@@ -22,6 +22,7 @@ from sim.clients.listing import NAME as CALLS
 from sim.clients.run import ClientRun, Read, card_document, read_again, run_client, without_motion
 from sim.clients.session import Ended, session_of
 from sim.jobs.trace_file import TRACE, write_trace
+from sim.process.cut import Started
 from sim.run.dryrun import DryRun
 from sim.run.recording import Recording, recording_of, reported, stages_of
 from sim.run.report import build_report, report_text
@@ -30,12 +31,14 @@ from sim.run.running import dry_run
 from sim.setup.scenario import Scenario
 from sim.show.draw.sheet import pixels
 from sim.show.drill_page import answers_page, drill_page
+from sim.show.operation_page.page import operation_answers_page, operation_page
 from sim.show.pictures.cut.of_run import draw_cut_of_run
 from sim.show.pictures.gallery import subject_of
 from sim.show.pictures.inline import inline_pictures
 from sim.show.replay.document import replay_page
 from sim.show.report_page.page import report_page
 from sim.teach.drills import Drill
+from sim.teach.operation.incidents import OperationDrill
 
 FILES: Final = ("report.html", "replay.html", "cut.png", "report.json")
 """What every run writes."""
@@ -149,6 +152,8 @@ def names_of(done: ClientRun) -> tuple[str, ...]:
 
 
 PAGES: Final = ("drill.html", "answers.html")
+OPERATION_PAGES: Final = ("operation.html", "operation-answers.html")
+"""Those of drills of operation."""
 
 
 def drills_into(folder: Path, program: Program, drills: Sequence[Drill], number: int) -> None:
@@ -162,6 +167,17 @@ def drills_into(folder: Path, program: Program, drills: Sequence[Drill], number:
         (stage / PAGES[1]).write_text(answers_page(program, drills, number), "utf-8")
         for name, drill in zip(names, drills, strict=True):
             (stage / name).write_bytes(drill.program.text.encode(program.encoding))
+
+
+def operation_into(folder: Path, title: Bilingual, cut: Started, drills: Sequence[OperationDrill], number: int) -> None:
+    """Write the two pages of drills of operation, as one set of files or not at all.
+
+    FileUnreadableError where the folder cannot be written.
+    """
+    pages = (operation_page, operation_answers_page)
+    with staged(folder, OPERATION_PAGES) as stage:
+        for name, page in zip(OPERATION_PAGES, pages, strict=True):
+            (stage / name).write_text(page(title, cut, drills, number), "utf-8")
 
 
 def drill_names(program: Program, count: int) -> list[str]:

@@ -56,7 +56,7 @@ def usual_gap_um(spark: Spark) -> float:
 def walls_of(work: Work, rows: CutRows, spark: Spark, stretch_um: float) -> Walls:
     """What the walls of a cut are held against."""
     widths = rows.way.width_um.tolist()
-    feeds = {each: _usual_feed_um_s(spark, each, work.height_um) for each in set(widths)}
+    feeds = {each: usual_feed_um_s(spark, each, work.height_um) for each in set(widths)}
     return Walls(
         usual_s=np.array([stretch_um / feeds[each] if each else 0.0 for each in widths]),
         gap_um=work.gap_um[rows.row].astype(np.float64),
@@ -78,7 +78,7 @@ def widened(walls: Walls, way: Way, records: Records) -> Widened:
     return Widened(wider, np.divide(sums, counts, out=np.zeros(n), where=counts > 0))
 
 
-def _usual_feed_um_s(spark: Spark, width_um: float, height_um: float) -> float:
+def usual_feed_um_s(spark: Spark, width_um: float, height_um: float) -> float:
     """Feed at the usual gap; of what cuts nothing none."""
     return steady(spark, usual_gap_um(spark), width_um, height_um).feed_um_s if width_um > 0.0 else 0.0
 

@@ -39,7 +39,7 @@ PACKAGES = (
     ),
     Package(
         "sim.process.ticks",
-        ("state", "chance", "gap", "servo", "log", "events", "watch", "tick", "walls"),
+        ("state", "chance", "gap", "servo", "log", "events", "watch", "tick", "hands", "walls"),
         "panel_page",
     ),
 )

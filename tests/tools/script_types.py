@@ -24,6 +24,7 @@ from sim.show.drill_page.page import DrillsEntry
 from sim.show.html.packed import PackedEntry
 from sim.show.index_page.model import IndexEntry
 from sim.show.lesson_page.model import LessonEntry
+from sim.show.operation_page.model import OperationEntry
 from sim.show.panel_page.model import PanelEntry
 from sim.show.replay.model import ReplayDocument
 from sim.show.report_page.tables import TableDataEntry
@@ -38,6 +39,7 @@ DOCUMENTS: dict[Path, Sequence[type]] = {
     SHOW / "index_page" / "assets" / "data.js": [IndexEntry],
     SHOW / "drill_page" / "assets" / "data.js": [DrillsEntry],
     SHOW / "lesson_page" / "assets" / "data.js": [LessonEntry, HandInDocument],
+    SHOW / "operation_page" / "assets" / "data.js": [OperationEntry],
     SHOW / "panel_page" / "assets" / "data.js": [PanelEntry],
     SHOW / "open_page" / "assets" / "data.js": ANSWERS,
 }

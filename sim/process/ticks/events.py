@@ -67,8 +67,9 @@ def thread_wire(job: Job, state: Floats, is_from_start: float) -> None:
     """Thread a broken wire, in place or at the start, from where it goes through the slot again."""
     back_um = place_um(job, state) - job.way.thread_um[int(state[ROW])]
     stand(state, job.bounds.thread_s + 2.0 * back_um * is_from_start / job.bounds.jog_um_s)
-    state[PUMPLESS_UNTIL] = 0.0
-    state[DRUMLESS_UNTIL] = 0.0
+    if job.bounds.is_manned == 0.0:
+        state[PUMPLESS_UNTIL] = 0.0
+        state[DRUMLESS_UNTIL] = 0.0
     state[UNCOOLED_TICKS] = 0.0
     state[AREA_RATE] = 0.0
     state[WIRE_OUT] = 0.0

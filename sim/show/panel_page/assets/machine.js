@@ -1,11 +1,12 @@
 // The cut that the panel drives: its job and state, what each key of the panel does, and the keys as they were pressed.
 import {
-  AT, BREAKS_HERE, CHIP_CLEAR_UM, CHIP_UM, CHIP_UNTIL, DRUMLESS_UNTIL, HAND_UM, HISTORY_STRIDE, HOLD_UNTIL, IS_BY_HAND,
-  PROGRESS_TICK, PUMPLESS_UNTIL, ROW, RUNNING, SEED_1, SEED_2, SET_SHARE, SHORT_TICKS, SPARKLESS_UNTIL, STATE_SIZE,
-  TICKS,
+  AT, CHIP_CLEAR_UM, CHIP_UM, CHIP_UNTIL, DRUMLESS_UNTIL, HAND_UM, HISTORY_STRIDE, HOLD_UNTIL, IS_BY_HAND,
+  PROGRESS_TICK, PUMPLESS_UNTIL, ROW, RUNNING, SEED_1, SEED_2, SET_SHARE, SPARKLESS_UNTIL, STATE_SIZE,
+  TICKS, POWER_OUT, WIRE_OUT,
 } from "./plain_state.js";
 import { cut_power, restart, thread_wire, tear_wire } from "./plain_events.js";
 import { place_um } from "./plain_gap.js";
+import { clear_alarm } from "./plain_hands.js";
 import { run_ticks } from "./plain_tick.js";
 
 /** @import { Job } from "./plain_state.js" */
@@ -27,7 +28,7 @@ const CHIP_TICKS = 60000;
  * @param {Panel} panel
  * @returns {Job}
  */
-function jobOf(panel) {
+export function jobOf(panel) {
   const { way, happenings } = panel;
   const length = way.along_um[way.along_um.length - 1];
   return {
@@ -86,8 +87,8 @@ export function newCut(panel, presses = []) {
       state[IS_BY_HAND] = value ? 1 : 0;
       state[HAND_UM] = value;
     },
-    thread: (value) => thread_wire(job, state, value),
-    restart: (value) => restart(job, state, value),
+    thread: (value) => { if (state[WIRE_OUT] > 0) thread_wire(job, state, value); },
+    restart: (value) => { if (state[POWER_OUT] > 0) restart(job, state, value); },
     chip: () => {
       state[CHIP_UM] = place_um(job, state);
       state[CHIP_CLEAR_UM] = CHIP_BACK_UM;
@@ -95,11 +96,7 @@ export function newCut(panel, presses = []) {
     },
     tear: () => tear_wire(job, state),
     fail: () => cut_power(job, state),
-    resume: () => {
-      state[SHORT_TICKS] = 0;
-      state[BREAKS_HERE] = 0;
-      state[PROGRESS_TICK] = state[TICKS];
-    },
+    resume: () => clear_alarm(state),
   };
 
   /**

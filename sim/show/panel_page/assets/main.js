@@ -71,7 +71,8 @@ function goOn(real_s) {
 function measure(machine_s, real_s) {
   const { state } = cut;
   const isStill = cut.status !== RUNNING;
-  const voltage = isStill ? 0 : (state[OPEN_US] + ARC_SHARE * state[ON_US]) / TICK_US;
+  const isWireless = cut.status === BROKEN || cut.status === BREAKS_AGAIN; // then the gap is open
+  const voltage = isStill ? Number(isWireless) : (state[OPEN_US] + ARC_SHARE * state[ON_US]) / TICK_US;
   const { on_us, off_us } = cut.job.discharge;
   const most = (TICK_US * on_us) / (on_us + off_us);
   const current = isStill ? 0 : state[SHORT_US] > 0 ? 1 : Math.min(state[ON_US] / most, 1);
