@@ -17,7 +17,7 @@ from sim.process.ticks import state as ticks
 from sim.process.ticks.state import Bounds, Discharge, Job, Records, Servo, Walls
 from sim.process.ticks.tick import run_ticks
 from sim.process.walls import Mark, marks_of, usual_gap_um, walls_of, widened
-from sim.process.way import CutRows, Work, cut_rows, standing
+from sim.process.way import CutRows, Work, cut_rows, rest_reversed, slot_of, standing
 from sim.setup.spark import Event, Spark
 
 _LAWS: Final = {"voltage": ticks.VOLTAGE, "window": ticks.WINDOW, "duty": ticks.DUTY}
@@ -26,6 +26,7 @@ _STOPS: Final = {
     ticks.SHORTED: "shorted",
     ticks.STALLED: "stalled",
     ticks.BREAKS_AGAIN: "breaks-again",
+    ticks.COLLIDED: "origin",
     ticks.RUNNING: "too-long",
 }
 _WORDS: Final[dict[int, str]] = {number: kind for kind, number in KINDS.items()} | {ticks.CLEARED: "cleared"}
@@ -33,6 +34,7 @@ _STRETCH_UM: Final = 10.0
 _MOST_STRETCHES: Final = 1 << 20
 _HISTORY_ROWS: Final = 4096
 _LOG_ROWS: Final = 500
+_COLLISION_UM: Final = 5.0
 _MOST_MARKS: Final = 200
 _TICKS_AT_ONCE: Final = 1 << 20
 _MOST_TICKS: Final = 400 * 3_600_000
@@ -46,7 +48,8 @@ class Moment(NamedTuple):
     ----------
     kind
         A kind of event, ``cleared`` of a short, or why the control stopped: ``in-vain`` at the end of its way back,
-        ``shorted`` for too long, ``stalled`` without progress, ``breaks-again`` in one place, ``too-long``.
+        ``shorted`` for too long, ``stalled`` without progress, ``breaks-again`` in one
+        place, ``too-long``, and ``origin``.
     t_s
         When.
     counters
@@ -91,6 +94,10 @@ class ProcessRun(NamedTuple):
         (n,) by how much the gap at the walls of each block is wider, below 0 narrower, than at the usual feed.
     marks
         Where stops and ways back show.
+    displaced_um
+        How far the rest of the path lies elsewhere since blocks were skipped; None where none was.
+    collided_um
+        Way through uncut work on a return to the origin with the wire in; None without one.
     history
         (m, 4): time in s, step, mean voltage and mean current as shares of the highest.
     """
@@ -109,6 +116,8 @@ class ProcessRun(NamedTuple):
     block_s: Floats
     wider_um: Floats
     marks: tuple[Mark, ...]
+    displaced_um: Point | None
+    collided_um: float | None
     history: Floats
 
 
@@ -140,9 +149,72 @@ def run_sparks(work: Work, spark: Spark, events: Sequence[Event] = ()) -> Proces
     """Cut a path under sparks; the same seed gives the same run."""
     cut = started(work, spark, events)
     came_to = ticks.RUNNING if len(cut.rows.row) else ticks.FINISHED
+    came_to = _run_on(cut, came_to)
+    run = _result(cut, came_to)
+    if came_to != ticks.BROKEN:
+        return run
+    back = cut_from_end(cut)
+    return _joined(run, _result(back, _run_on(back, ticks.RUNNING)))
+
+
+def _run_on(cut: Started, came_to: int) -> int:
+    """Let a cut go on to its end, or to where it stops; what its last tick came to."""
     while came_to == ticks.RUNNING and cut.state[ticks.TICKS] < _MOST_TICKS:
         came_to = run_ticks(cut.job, cut.state, _TICKS_AT_ONCE)
-    return _result(cut, came_to)
+    return came_to
+
+
+def cut_from_end(cut: Started) -> Started:
+    """The rest of a cut whose wire broke, from the end of its path back to where it broke.
+
+    The wire is threaded at the start, which has to be the end of the path too. Happenings by time go on; those at a
+    block have come, or lie on the way and come no more.
+    """
+    at = float(cut.state[ticks.AT])
+    rows = rest_reversed(cut.rows, at)
+    spark = cut.spark._replace(threading="start")
+    job = job_of(cut.work, rows, spark, ())
+    by_step = int(cut.job.happenings.by_step[0])
+    timed = cut.job.happenings._replace(
+        **{name: getattr(cut.job.happenings, name)[by_step:] for name in ("kind", "for_s", "size", "at")},
+        by_step=np.zeros(1),
+    )
+    state = cut.state.copy()
+    passed = [ticks.SEED_1, ticks.SEED_2, ticks.SET_SHARE, ticks.TICKS, ticks.NEXT_BY_TIME]
+    state[:] = 0.0
+    state[passed], state[ticks.HISTORY_STRIDE] = cut.state[passed], 1.0
+    threading_ticks = float(np.rint(spark.thread_s / ticks.TICK_S))
+    state[ticks.TICKS] += threading_ticks
+    state[ticks.LOST_TICKS], state[ticks.PROGRESS_TICK] = threading_ticks, state[ticks.TICKS]
+    walls = walls_of(cut.work, rows, spark, float(job.records.stretch_um[0]))
+    return Started(cut.work, rows, spark, job._replace(happenings=timed), state, walls)
+
+
+def _joined(first: ProcessRun, second: ProcessRun) -> ProcessRun:
+    """A cut and the rest of it, which came from the other end, as one."""
+    cut_s = np.array(
+        [each.time_s - each.lost_s for each in (first, second._replace(time_s=second.time_s - first.time_s))]
+    )
+    share = cut_s / cut_s.sum()
+    mean = Steady(*(float(share @ pair) for pair in np.column_stack([first.mean, second.mean])))
+    is_both = (first.block_s > 0.0) & (second.block_s > 0.0)
+    wider_um = np.where(second.block_s > 0.0, second.wider_um, first.wider_um)
+    wider_um[is_both] = (first.wider_um[is_both] + second.wider_um[is_both]) / 2.0
+    return second._replace(
+        spark=first.spark,
+        lost_s=first.lost_s + second.lost_s,
+        sparks=first.sparks + second.sparks,
+        mean=mean,
+        shorts=first.shorts + second.shorts,
+        breaks=first.breaks + second.breaks,
+        retreated_um=first.retreated_um + second.retreated_um,
+        moments=(*first.moments, *second.moments),
+        unlisted=first.unlisted + second.unlisted,
+        block_s=first.block_s + second.block_s,
+        wider_um=wider_um,
+        marks=(*first.marks, *second.marks),
+        history=np.concatenate([first.history, second.history]),
+    )
 
 
 def job_of(work: Work, rows: CutRows, spark: Spark, events: Sequence[Event]) -> Job:
@@ -169,6 +241,7 @@ def job_of(work: Work, rows: CutRows, spark: Spark, events: Sequence[Event]) -> 
             restart_s=spark.restart_s,
             jog_um_s=spark.jog_um_s,
             is_from_start=float(spark.threading == "start"),
+            is_reversed=float(spark.threading == "reverse"),
             is_manned=0.0,
         ),
         happenings=happenings_of(rows, spark, events, 2.0 * _usual_s(rows, work, spark) + 60.0),
@@ -210,7 +283,7 @@ def _result(cut: Started, came_to: int) -> ProcessRun:
     log = [row for row in records.log.reshape(-1, 4)[:logged].tolist() if int(row[2]) != ticks.STOPPED]
     moments = tuple(_moment(work, rows, t_s, at, _WORDS[int(kind)]) for t_s, at, kind, _ in log)
     time_s = float(state[ticks.TICKS]) * ticks.TICK_S
-    is_through = came_to == ticks.FINISHED
+    is_through = came_to in {ticks.FINISHED, ticks.BROKEN}  # of a broken wire the rest comes from the other end
     return ProcessRun(
         spark=cut.spark,
         time_s=time_s,
@@ -226,8 +299,31 @@ def _result(cut: Started, came_to: int) -> ProcessRun:
         block_s=block_s,
         wider_um=wider_um,
         marks=tuple(islice(marks_of(work, rows, log, cut.walls, wider), _MOST_MARKS)),
+        displaced_um=displaced_um(work, moments),
+        collided_um=collided_um(work, rows, state) if came_to == ticks.COLLIDED else None,
         history=records.history.reshape(-1, 4)[: int(state[ticks.HISTORY_ROWS])],
     )
+
+
+def displaced_um(work: Work, moments: Sequence[Moment]) -> Point | None:
+    """How far what follows skipped blocks lies elsewhere, µm: a controller counts from where it stands."""
+    skipped = [each for each in moments if each.kind == "skip"]
+    if not skipped:
+        return None
+    left_out = [work.steps.corner_um[each.row + 1] - (each.counters.x_um, each.counters.y_um) for each in skipped]
+    x, y = -np.sum(left_out, axis=0)
+    return Point(float(x), float(y))
+
+
+def collided_um(work: Work, rows: CutRows, state: Floats) -> float:
+    """Length of the straight way back to the start that leads through uncut work, µm."""
+    here, start = standing(work, rows, float(state[ticks.AT])).place_um, work.toolpath.start_um[0]
+    way = start - here
+    count = max(int(np.hypot(*way) / _COLLISION_UM), 1)
+    share = (np.arange(count) + 0.5) / count
+    slot = slot_of(work, rows, float(state[ticks.FARTHEST]))
+    is_free = slot.covers_um(here + share[:, None] * way)
+    return float(np.hypot(*way) * (~is_free).mean())
 
 
 def _mean(state: Floats, height_um: float) -> Steady:

@@ -21,6 +21,9 @@ KINDS: Final[dict[EventKind, int]] = {
     "pump-off": ticks.PUMP_OFF,
     "drum-off": ticks.DRUM_OFF,
     "set": ticks.KNOB,
+    "single": ticks.SINGLE,
+    "skip": ticks.SKIP,
+    "origin": ticks.ORIGIN,
 }
 """Kinds of events by the numbers of the loop."""
 _MOST_DRAWN: Final = 10_000
@@ -61,7 +64,7 @@ def _ticks(seconds: float) -> float:
 
 
 def _size(event: Event) -> float:
-    sizes = {"short": event.clear_um, "chips": event.factor, "power": float(event.remembers)}
+    sizes = {"short": event.clear_um, "chips": event.factor, "power": float(event.remembers), "single": event.for_s}
     return sizes.get(event.kind, event.set_value or 0.0)
 
 

@@ -16,7 +16,7 @@ from sim.process.sparks import settled_gap_um, steady
 from sim.process.ticks import state as ticks
 from sim.process.ticks.state import Records, Walls, Way
 from sim.process.ticks.walls import widen
-from sim.process.way import CutRows, Work, standing
+from sim.process.way import CutRows, Work, along_at, standing
 from sim.setup.spark import PRESETS, Spark
 
 BREAK_MARK_UM: Final = 12.5, 7.5
@@ -94,9 +94,7 @@ def marks_of(work: Work, rows: CutRows, log: Sequence[Sequence[float]], walls: W
         if int(kind) not in _MARKING:
             continue
         found = standing(work, rows, at)
-        index = int(np.searchsorted(rows.row, found.counters.row))
-        low, high = rows.way.along_um[index : index + 2].tolist()
-        along_um = low + (high - low) * found.counters.made / int(work.steps.count[found.counters.row])
+        index, along_um = along_at(rows, at)
         if along_um < past_um:
             continue
         if int(kind) == ticks.BREAK:

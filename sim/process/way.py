@@ -1,15 +1,19 @@
 """The way of a cut under sparks: the blocks that the control steps, and where a step stands on them."""
 
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
+import shapely
 
 from controller.stepping.counters import Counters, counters_after
 from controller.stepping.steps import Steps
 from parser.controller_words import StepWords
+from parser.geometry.along import places
 from parser.geometry.curves import Bools, Floats, Ints
 from parser.toolpath import Point, Toolpath
 from sim.process.ticks.state import Way
+
+_SPACING_UM: Final = 20.0
 
 
 class Work(NamedTuple):
@@ -37,10 +41,14 @@ class Work(NamedTuple):
 
 
 class CutRows(NamedTuple):
-    """The (k,) rows of a toolpath that the control cuts, and the way along them."""
+    """The (k,) rows of a toolpath that the control cuts, and the way along them.
+
+    `is_back` where it goes along them from their ends, of the last of them only by so many steps as the way has.
+    """
 
     row: Ints
     way: Way
+    is_back: bool = False
 
 
 class Standing(NamedTuple):
@@ -62,13 +70,60 @@ def cut_rows(work: Work) -> CutRows:
     return CutRows(row, Way(before, along, work.width_um[row].astype(np.float64), thread))
 
 
+def along_at(rows: CutRows, at: float) -> tuple[int, float]:
+    """Which of the rows holds a step of the way, and the path by then, µm."""
+    way = rows.way
+    index = min(int(np.searchsorted(way.before, at, side="right")) - 1, len(rows.row) - 1)
+    (first, last), (low, high) = way.before[index : index + 2].tolist(), way.along_um[index : index + 2].tolist()
+    return index, low + (high - low) * (at - first) / (last - first)
+
+
 def standing(work: Work, rows: CutRows, at: float) -> Standing:
     """Where the wire stands after so many steps of the way."""
-    index = min(int(np.searchsorted(rows.way.before, at, side="right")) - 1, len(rows.row) - 1)
+    index, _ = along_at(rows, at)
     row, step = int(rows.row[index]), int(at - rows.way.before[index])
+    step = int(work.steps.count[row]) - step if rows.is_back else step
     counters = counters_after(work.steps, work.words, row, step)
     x0, y0 = np.rint(work.toolpath.start_um[0]).tolist()
     return Standing(counters, Point(counters.x_um + x0, counters.y_um + y0))
+
+
+def rest_reversed(rows: CutRows, at: float) -> CutRows:
+    """The rows behind a step, and the rest of the one that it is in, from the end of the path back to it."""
+    way = rows.way
+    index, here_um = along_at(rows, at)
+    before = way.before[-1] - np.concatenate([way.before[:index:-1], [at]])
+    along = way.along_um[-1] - np.concatenate([way.along_um[:index:-1], [here_um]])
+    row = rows.row[index:][::-1].copy()
+    width = way.width_um[index:][::-1].copy()
+    return CutRows(row, Way(before, along, width, np.zeros(len(row))), is_back=True)
+
+
+class Slot(NamedTuple):
+    """What a wire has cut: places (m, 2) that it went through, and how far it reached to all sides, µm."""
+
+    places_um: Floats
+    reach_um: float
+
+    def covers_um(self, places_um: Floats) -> Bools:
+        """(k,) whether places (k, 2) lie in it."""
+        line = shapely.LineString(self.places_um)
+        shapely.prepare(line)
+        return np.asarray(shapely.dwithin(line, shapely.points(places_um), self.reach_um))
+
+
+def slot_of(work: Work, rows: CutRows, farthest: float) -> Slot:
+    """What a wire has cut that came so many steps far; its reach is that of the gap at the walls."""
+    way = rows.way
+    ends = np.minimum(way.before[1:], farthest)
+    share = np.clip((ends - way.before[:-1]) / np.diff(way.before), 0.0, 1.0)
+    parts = np.maximum(np.ceil(np.diff(way.along_um) * share / _SPACING_UM), 1.0).astype(np.int64)
+    last = np.cumsum(parts + 1)
+    part = (np.arange(last[-1]) - np.repeat(last - parts - 1, parts + 1)) / np.repeat(parts, parts + 1)
+    row = np.repeat(np.arange(len(rows.row)), parts + 1)
+    is_cut_row = share[row] > 0.0
+    found = places(work.toolpath, rows.row[row], part * share[row])[is_cut_row]
+    return Slot(found, work.wire_um / 2.0 + float(work.gap_um[rows.row].max()))
 
 
 def is_cut(toolpath: Toolpath, steps: Steps, block: int) -> bool:

@@ -3,6 +3,8 @@
 from collections.abc import Iterator, Sequence
 from typing import Final
 
+import numpy as np
+
 from controller.stepping.steps import Steps, interpolate, words_of
 from parser.dialect.reader import at_block
 from parser.findings.errors import SettingsError
@@ -19,6 +21,7 @@ from sim.run.dryrun import DryRun
 from sim.setup.scenario import Scenario
 from sim.setup.spark import Spark
 
+_CLOSED_UM: Final = 50.0
 _SPARKS: Final = "check-sparks"
 
 
@@ -57,6 +60,11 @@ def panel_cut(run: DryRun, scenario: Scenario) -> Started:
 
 
 def _refuse_elsewhere(work: Work, scenario: Scenario) -> None:
+    spark, toolpath = scenario.spark, work.toolpath
+    if spark is not None and spark.threading == "reverse":
+        open_um = float(np.hypot(*(toolpath.end_um[-1] - toolpath.start_um[0])))
+        if open_um > _CLOSED_UM or toolpath.is_jump.any():
+            raise SettingsError("reverse-needs-closed-path", open_um=open_um)
     for at, event in enumerate(scenario.events, start=1):
         if event.block is not None and not is_cut(work.toolpath, work.steps, event.block):
             raise SettingsError("event-block-not-cut", at=at, block=event.block, blocks=len(work.toolpath))

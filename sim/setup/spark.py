@@ -11,8 +11,10 @@ from sim.setup.toml.reader import Bound, tables
 
 Mode = Literal["I1", "I5", "I9", "I13", "I15", "I17"]
 Law = Literal["voltage", "window", "duty"]
-Threading = Literal["place", "start"]
-EventKind = Literal["short", "chips", "break", "power", "pause", "sparks-off", "pump-off", "drum-off", "set"]
+Threading = Literal["place", "start", "reverse"]
+EventKind = Literal[
+    "short", "chips", "break", "power", "pause", "sparks-off", "pump-off", "drum-off", "set", "single", "skip", "origin"
+]
 
 _FEED_MM_MIN: Final = Bound(0.01, 1e4)
 _SECONDS: Final = Bound(0.0, 1e5)
@@ -138,6 +140,8 @@ class Event(NamedTuple):
         Of a power loss: whether the control goes on at its step; else the block is begun again.
     set_value
         Of the knob: what it is set to.
+    seed
+        Of what comes at random; by that of the cut where None.
     """
 
     kind: EventKind

@@ -1,7 +1,7 @@
 """A cut under sparks in rows for people: on the terminal."""
 
 from parser.text.source import BlockNames
-from parser.units import mm
+from parser.units import mm, mm_text
 from sim.base.units import in_figures
 from sim.process.cut import ProcessRun
 from sim.show.texts import Words
@@ -29,6 +29,7 @@ def spark_rows(process: ProcessRun | None, names: BlockNames, tell: Words) -> li
         (tell("sparks.time"), time),
         *_happened(process, tell),
         *_marks(process, names, tell),
+        *_elsewhere(process, tell),
         *_stopped(process, names, tell),
     ]
 
@@ -48,6 +49,17 @@ def _marks(process: ProcessRun, names: BlockNames, tell: Words) -> list[tuple[st
     depth, within = in_figures(deepest.depth_um), in_figures(deepest.within_um)
     block, count = names.of_row(deepest.row), len(process.marks)
     return [(tell("sparks.marks"), tell("sparks.marks-of", count=count, depth=depth, within=within, block=block))]
+
+
+def _elsewhere(process: ProcessRun, tell: Words) -> list[tuple[str, str]]:
+    """Where the path lies after skipped blocks, and what the wire ran into on its way to the origin."""
+    rows = []
+    if process.displaced_um is not None:
+        x, y = map(mm_text, process.displaced_um)
+        rows.append((tell("sparks.displaced"), tell("sparks.displaced-of", x=x, y=y)))
+    if process.collided_um is not None:
+        rows.append((tell("sparks.collided"), tell("sparks.collided-of", length=f"{mm(process.collided_um):.2f}")))
+    return rows
 
 
 def _stopped(process: ProcessRun, names: BlockNames, tell: Words) -> list[tuple[str, str]]:

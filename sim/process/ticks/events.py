@@ -9,6 +9,7 @@ from sim.process.ticks.log import note
 from sim.process.ticks.state import (
     AREA_RATE,
     AT,
+    AT_ORIGIN,
     BREAK,
     BREAK_UM,
     BREAKS,
@@ -22,11 +23,16 @@ from sim.process.ticks.state import (
     CHIPS_UNTIL,
     DRUM_OFF,
     DRUMLESS_UNTIL,
+    FAR_ROW,
+    FARTHEST,
+    FLOOR_UM,
+    FRONT_UM,
     HOLD_UNTIL,
     KNOB,
     LOST_TICKS,
     NEXT_BY_STEP,
     NEXT_BY_TIME,
+    ORIGIN,
     PAUSE,
     POWER,
     POWER_OUT,
@@ -38,6 +44,9 @@ from sim.process.ticks.state import (
     ROW,
     SET_SHARE,
     SHORT,
+    SINGLE,
+    SINGLE_S,
+    SKIP,
     SPARKLESS_UNTIL,
     SPARKS_OFF,
     TICK_S,
@@ -73,6 +82,7 @@ def thread_wire(job: Job, state: Floats, is_from_start: float) -> None:
     state[UNCOOLED_TICKS] = 0.0
     state[AREA_RATE] = 0.0
     state[WIRE_OUT] = 0.0
+    state[AT_ORIGIN] = 0.0
 
 
 @loop_part("void(Job, f8[::1])", Job)
@@ -85,7 +95,7 @@ def tear_wire(job: Job, state: Floats) -> None:
     state[BREAKS_HERE] = state[BREAKS_HERE] + 1.0 if is_here else 1.0
     state[BREAK_UM] = place if state[BREAKS_HERE] == 1.0 else state[BREAK_UM]
     state[WIRE_OUT] = 1.0
-    if job.bounds.is_manned == 0.0:
+    if job.bounds.is_manned + job.bounds.is_reversed == 0.0:
         thread_wire(job, state, job.bounds.is_from_start)
 
 
@@ -105,6 +115,24 @@ def cut_power(job: Job, state: Floats) -> None:
     state[POWER_OUT] = 1.0
 
 
+@loop_part("void(Job, f8[::1])", Job)
+def skip_block(job: Job, state: Floats) -> None:
+    """Leave out the rest of a block: the control counts from where it stands, and the wire cuts on from there.
+
+    What lies behind is not on the path that comes: there is no way back over it.
+    """
+    row = int(state[ROW])
+    gap_um = state[FRONT_UM] - place_um(job, state)
+    state[AT] = job.way.before[row + 1]
+    state[FARTHEST] = state[AT]
+    row = min(row + 1, len(job.way.before) - 2)
+    state[ROW] = float(row)
+    state[FAR_ROW] = float(row)
+    state[FLOOR_UM] = place_um(job, state)
+    state[FRONT_UM] = state[FLOOR_UM] + gap_um
+    state[RESIDUE] = 0.0
+
+
 @loop_part("void(f8[::1], f8, f8, f8)")
 def turn_switch(state: Floats, kind: float, until: float, size: float) -> None:
     """Turn a switch or the knob, or let chips gather, until a tick."""
@@ -121,6 +149,8 @@ def turn_switch(state: Floats, kind: float, until: float, size: float) -> None:
         state[DRUMLESS_UNTIL] = until
     elif kind == KNOB:
         state[SET_SHARE] = size
+    elif kind == SINGLE:
+        state[SINGLE_S] = size
 
 
 @loop_part("void(Job, f8[::1], i8)", Job)
@@ -144,7 +174,13 @@ def happen(job: Job, state: Floats, at: int) -> None:
             restart(job, state, size)
         return
     note(job, state, kind, size)
-    turn_switch(state, kind, until, size)
+    if kind == SKIP:
+        skip_block(job, state)
+    elif kind == ORIGIN:
+        state[AT_ORIGIN] = 1.0
+        state[WIRE_OUT] = 1.0
+    else:
+        turn_switch(state, kind, until, size)
 
 
 @loop_part("void(Job, f8[::1])", Job)

@@ -10,6 +10,7 @@ from sim.process.ticks.state import (
     FAR_ROW,
     FAR_UM,
     FARTHEST,
+    FLOOR_UM,
     GAP_UM,
     NEXT_BY_STEP,
     ON_US,
@@ -103,7 +104,7 @@ def go_back(job: Job, state: Floats) -> bool:
     """Go back by whole steps; whether the control stands at the end of its way back and would go on."""
     far_row = int(state[FAR_ROW])
     far_um = path_to_um(job, far_row, state[FARTHEST])
-    lowest_um = max(far_um - job.servo.ring_um, job.way.thread_um[far_row]) - _ROUNDING_UM
+    lowest_um = max(far_um - job.servo.ring_um, job.way.thread_um[far_row], state[FLOOR_UM]) - _ROUNDING_UM
     here_um = place_um(job, state)
     while state[RESIDUE] <= -1.0:
         if state[AT] <= 0.0 or place_um(job, state) - step_um(job, int(state[ROW])) < lowest_um:

@@ -28,6 +28,7 @@ STALLED = 4
 BREAKS_AGAIN = 5
 BROKEN = 6
 POWERLESS = 7
+COLLIDED = 8
 
 # Laws of the servo.
 VOLTAGE = 0
@@ -46,6 +47,9 @@ DRUM_OFF = 8
 KNOB = 9
 CLEARED = 10
 STOPPED = 11
+SINGLE = 12
+SKIP = 13
+ORIGIN = 14
 
 # Where the state has what.
 TICKS = 0
@@ -107,7 +111,10 @@ WIRE_OUT = 55
 POWER_OUT = 56
 IS_BY_HAND = 57
 HAND_UM = 58
-STATE_SIZE = 59
+SINGLE_S = 59
+FLOOR_UM = 60
+AT_ORIGIN = 61
+STATE_SIZE = 62
 
 
 class Way(NamedTuple):
@@ -181,6 +188,8 @@ class Bounds(NamedTuple):
         Speed through the slot without sparks.
     is_from_start
         1 where a broken wire is threaded at the start, 0 where it is threaded in place.
+    is_reversed
+        1 where the cut ends with a broken wire, for another that comes from the end of the path.
     is_manned
         1 where somebody threads a broken wire and switches the power on again, 0 where it is done at once.
     """
@@ -191,6 +200,7 @@ class Bounds(NamedTuple):
     restart_s: float
     jog_um_s: float
     is_from_start: float
+    is_reversed: float
     is_manned: float
 
 
@@ -201,7 +211,7 @@ class Happenings(NamedTuple):
     ----------
     kind, for_s, size
         (k,) which, how long, and how much: of a short the way back that clears it, µm; of chips a factor; of a power
-        loss 1 where the control keeps its place; of the knob the new set value.
+        loss 1 where the control keeps its place; of the knob the new set value; of single block the time of each stop.
     at
         (k,) step, or tick.
     by_step

@@ -2,15 +2,18 @@
 
 from controller.compiled.loops import compiled, loop_part
 from parser.geometry.curves import Floats
-from sim.process.ticks.events import let_happen, tear_wire
+from sim.process.ticks.events import let_happen, stand, tear_wire
 from sim.process.ticks.gap import let_spark, look, place_um
 from sim.process.ticks.log import note, record
 from sim.process.ticks.servo import move, way_of_law
 from sim.process.ticks.state import (
     AT,
+    AT_ORIGIN,
     BREAKS_AGAIN,
     BREAKS_HERE,
     BROKEN,
+    COLLIDED,
+    FARTHEST,
     FINISHED,
     HAND_UM,
     HOLD_UNTIL,
@@ -21,9 +24,11 @@ from sim.process.ticks.state import (
     POWERLESS,
     PROGRESS_TICK,
     REMOVED_UM3,
+    ROW,
     RUNNING,
     SHORT_TICKS,
     SHORTED,
+    SINGLE_S,
     STALLED,
     STOPPED,
     TICK_S,
@@ -53,9 +58,23 @@ def way_of_tick(job: Job, state: Floats) -> float:
 @loop_part("i8(f8[::1])")
 def waits_for(state: Floats) -> int:
     """What a cut waits for: somebody to thread the wire, or to switch the power on; else `RUNNING`."""
+    if state[AT_ORIGIN] > 0.0:
+        return COLLIDED
     if state[WIRE_OUT] > 0.0:
         return BREAKS_AGAIN if state[BREAKS_HERE] >= _MOST_BREAKS_HERE else BROKEN
     return POWERLESS if state[POWER_OUT] > 0.0 else RUNNING
+
+
+@loop_part("i8(Job, f8[::1], b1)", Job)
+def alarm(job: Job, state: Floats, is_in_vain: bool) -> int:
+    """Why the control stops by itself, `RUNNING` where it does not; by hand it goes where hands want."""
+    if state[IS_BY_HAND] > 0.0:
+        return RUNNING
+    if is_in_vain:
+        return IN_VAIN
+    if state[SHORT_TICKS] * TICK_S > job.bounds.short_s:
+        return SHORTED
+    return STALLED if state[TICKS] - state[PROGRESS_TICK] > _STALL_TICKS else RUNNING
 
 
 @loop_part("i8(Job, f8[::1])", Job)
@@ -74,13 +93,12 @@ def tick(job: Job, state: Floats) -> int:
     if breaks(job, state, state[REMOVED_UM3] - removed):
         tear_wire(job, state)
         return BREAKS_AGAIN if state[BREAKS_HERE] >= _MOST_BREAKS_HERE else waits_for(state)
-    is_in_vain = move(job, state, way_of_tick(job, state)) and state[IS_BY_HAND] == 0.0
+    row = state[ROW]
+    is_in_vain = move(job, state, way_of_tick(job, state))
     state[TICKS] += 1.0
-    if is_in_vain:
-        return IN_VAIN
-    if state[SHORT_TICKS] * TICK_S > job.bounds.short_s and state[IS_BY_HAND] == 0.0:
-        return SHORTED
-    return STALLED if state[TICKS] - state[PROGRESS_TICK] > _STALL_TICKS else RUNNING
+    if state[SINGLE_S] > 0.0 and state[ROW] > row and state[AT] == state[FARTHEST]:
+        stand(state, state[SINGLE_S])
+    return alarm(job, state, is_in_vain)
 
 
 @compiled("i8(Job, f8[::1], i8)", Job)

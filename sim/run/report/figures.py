@@ -160,6 +160,8 @@ def spark_entry(process: ProcessRun | None) -> SparkEntry | None:
             }
             for mark in process.marks
         ],
+        "displaced_um": None if process.displaced_um is None else place(process.displaced_um),
+        "collided_um": known(process.collided_um),
     }
 
 

@@ -305,6 +305,8 @@ class SparkEntry(TypedDict):
     events: list[SparkMomentEntry]
     events_unlisted: Count
     marks: list[SparkMarkEntry]
+    displaced_um: Point | None
+    collided_um: Size | None
 
 
 class LossEntry(TypedDict):

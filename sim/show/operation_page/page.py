@@ -38,7 +38,10 @@ _STANDS: Final = {
 def operation_page(title: Bilingual, cut: Started, drills: Sequence[OperationDrill], number: int) -> str:
     """The page of a set of drills: the same set gives the same bytes. What the program says stands escaped."""
     return rendered(
-        _ASSETS, "operation.html.j2", data=operation_entry(cut, drills, number), **_template_values(title, cut, drills, number)
+        _ASSETS,
+        "operation.html.j2",
+        data=operation_entry(cut, drills, number),
+        **_template_values(title, cut, drills, number),
     )
 
 

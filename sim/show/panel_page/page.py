@@ -7,7 +7,8 @@ from typing import Any, Final
 
 import numpy as np
 
-from parser.geometry.curves import Curves, Floats, Ints
+from parser.geometry.along import places
+from parser.geometry.curves import Curves, Ints
 from parser.text.encoding import printable
 from parser.units import mm
 from sim.process.cut import Started
@@ -36,7 +37,7 @@ def panel_entry(started: Started) -> PanelEntry:
         "blocks": [source.names.of_row(each) for each in row.tolist()],
         "texts": [printable(source.text[low:high]) for low, high in source.span[row].tolist()],
         "starts_um": (work.steps.corner_um[row] + np.rint(work.toolpath.start_um[0]).astype(np.int64)).tolist(),
-        "points": [_points(work.toolpath, each) for each in row.tolist()],
+        "points": _points(work.toolpath, row),
         "way": {name: column.tolist() for name, column in job.way._asdict().items()},
         "words": _words(started, row),
         "discharge": job.discharge._asdict(),
@@ -77,22 +78,18 @@ def _words(started: Started, row: Ints) -> dict[str, list[int]]:
 
 def _bounds(started: Started) -> dict[str, float | None]:
     bounds = started.job.bounds._asdict()
-    del bounds["is_manned"]
+    del bounds["is_manned"], bounds["is_reversed"]
     most = bounds["area_rate_mm2_min"]
     return {**bounds, "area_rate_mm2_min": most if np.isfinite(most) else None}
 
 
-def _points(curves: Curves, row: int) -> list[float]:
-    """Evenly spaced places along a row, µm to a tenth, x and y by turns."""
-    sweep = float(curves.sweep_rad[row])
-    parts = max(int(np.ceil(abs(sweep) / _TURN_RAD)), 1)
-    share = np.linspace(0.0, 1.0, parts + 1)[:, None]
-    places: Floats = curves.start_um[row] + share * (curves.end_um[row] - curves.start_um[row])
-    if curves.is_arc[row]:
-        arm = curves.start_um[row] - curves.center_um[row]
-        turned = np.arctan2(arm[1], arm[0]) + share[:, 0] * sweep
-        places = curves.center_um[row] + np.hypot(*arm) * np.column_stack([np.cos(turned), np.sin(turned)])
-    return np.round(places, 1).ravel().tolist()
+def _points(curves: Curves, row: Ints) -> list[list[float]]:
+    """Evenly spaced places along each of the rows, µm to a tenth, x and y by turns."""
+    parts = np.maximum(np.ceil(np.abs(curves.sweep_rad[row]) / _TURN_RAD), 1.0).astype(np.int64)
+    ends = np.cumsum(parts + 1)
+    share = (np.arange(ends[-1]) - np.repeat(ends - parts - 1, parts + 1)) / np.repeat(parts, parts + 1)
+    found = np.round(places(curves, np.repeat(row, parts + 1), share), 1)
+    return [part.ravel().tolist() for part in np.split(found, ends[:-1])]
 
 
 def length_mm(started: Started) -> float:

@@ -5,13 +5,14 @@ import math
 import numpy as np
 import pytest
 from depth import cases
-from spark_cuts import ARCS, OPENING, straight, work_of
+from spark_cuts import ARCS, OPENING, WIRE_UM, straight, work_of
 
 from controller.stepping.counters import counters_after
-from sim.process.cut import job_of, run_sparks, state_of
+from sim.process.cut import cut_from_end, job_of, run_sparks, started, state_of
 from sim.process.ticks import servo
 from sim.process.ticks import state as ticks
-from sim.process.way import cut_rows
+from sim.process.ticks.tick import run_ticks
+from sim.process.way import cut_rows, standing
 from sim.setup.spark import Event, EventKind, Law, Spark
 
 QUICK = Spark(on_us=3.0, off_us=80.0, thread_s=10.0, restart_s=20.0)
@@ -121,6 +122,52 @@ def test_a_slower_cut_leaves_a_wider_gap() -> None:
     assert slow.wider_um[0] == pytest.approx(by_time, abs=0.05)
 
 
+CLOSED = OPENING.removesuffix("DD") + "B0B1900B1900GYL2 DD"
+
+
+def test_a_reverse_cut_meets_the_break_point_to_the_step() -> None:
+    """The rest is cut from the end of the path: its blocks take the same time, and its last step is that of the break."""
+    work = work_of(CLOSED)
+    plain = run_sparks(work, QUICK)
+    run = run_sparks(work, QUICK._replace(threading="reverse"), [Event("break", 4, share=0.3)])
+    assert run.stopped is None
+    assert run.breaks == 1
+    assert run.lost_s == pytest.approx(QUICK.thread_s, abs=1e-6)
+    assert run.block_s == pytest.approx(plain.block_s, rel=0.03)
+    assert run.time_s == pytest.approx(plain.time_s + QUICK.thread_s, rel=0.01)
+    broken = started(work, QUICK._replace(threading="reverse"), [Event("break", 4, share=0.3)])
+    assert run_ticks(broken.job, broken.state, 10**9) == ticks.BROKEN
+    back = cut_from_end(broken)
+    assert run_ticks(back.job, back.state, 10**9) == ticks.FINISHED
+    met = standing(work, back.rows, float(back.state[ticks.AT]))
+    at = standing(work, broken.rows, float(broken.state[ticks.AT]))
+    assert met == at
+    first = standing(work, back.rows, 0.0)
+    assert first.place_um == (0.0, 0.0)
+
+
+def test_single_block_stops_at_the_end_of_each_block() -> None:
+    plain, run = (run_sparks(work_of(OPENING), QUICK, events) for events in ([], [Event("single", 3, for_s=7.0)]))
+    assert run.lost_s == 3 * 7.0  # behind blocks 3, 4, 5; the last one ends the program
+    assert run.time_s == pytest.approx(plain.time_s + 21.0, abs=1.0)
+
+
+def test_a_skipped_block_displaces_all_that_follows() -> None:
+    run = run_sparks(work_of(OPENING), QUICK, [Event("skip", 4, share=0.25)])
+    assert run.displaced_um == (5800.0 * 0.75, 0.0)
+    assert run.block_s[3] < run.block_s[4]
+    assert run.stopped is None
+    assert run_sparks(work_of(OPENING), QUICK, [Event("skip", 6)]).stopped is None
+
+
+def test_a_return_to_the_origin_with_the_wire_in_runs_into_what_is_uncut() -> None:
+    """Straight from (1.45, 1.9) to (0, 0) mm, less the reach of the wire at either end, for it leads away from both."""
+    run = run_sparks(work_of(OPENING), QUICK, [Event("origin", 4, share=0.25)])
+    assert run.stopped is not None
+    assert run.stopped.kind == "origin"
+    assert run.collided_um == pytest.approx(math.hypot(1450.0, 1900.0) - 2.0 * (WIRE_UM / 2.0 + 10.0), abs=6.0)
+
+
 SMALL = "B40B30B40GXL1 B30B0B60GYNR1 B0B25B25GYL4 B25B10B25GXL2 DD"
 
 
@@ -162,7 +209,22 @@ def test_ways_forth_and_back_stay_on_the_path_and_lose_nothing() -> None:
         assert state[ticks.FARTHEST] >= at
 
 
-KINDS: list[EventKind] = ["short", "chips", "break", "power", "pause", "sparks-off", "pump-off", "drum-off", "set"]
+KINDS: list[EventKind] = [
+    *(
+        "short",
+        "chips",
+        "break",
+        "power",
+        "pause",
+        "sparks-off",
+        "pump-off",
+        "drum-off",
+        "set",
+        "single",
+        "skip",
+        "origin",
+    )
+]
 LAWS: list[Law] = ["voltage", "window", "duty"]
 
 

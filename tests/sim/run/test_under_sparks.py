@@ -69,6 +69,23 @@ def test_an_event_in_no_block_of_the_program_is_refused(block: int) -> None:
         run_text(OPENING, spark=Spark(), events=(Event("break", block=block),))
 
 
+def test_a_reverse_cut_needs_a_path_that_ends_where_it_starts() -> None:
+    with pytest.raises(SettingsError, match="it is open by 1900 µm"):
+        run_text("B0B1900B1900GYL4 DD", spark=Spark(threading="reverse"))
+
+
+def test_what_is_skipped_and_what_the_wire_runs_into_is_told() -> None:
+    skipped = run_text(OPENING, spark=Spark(), events=(Event("skip", 4),))
+    assert (
+        dict(summary_rows(skipped))["  displaced"]
+        == "all that follows the skipped blocks lies 5.800, 0.000 mm elsewhere"
+    )
+    torn = run_text(OPENING, spark=Spark(), events=(Event("origin", 4, share=0.25),))
+    assert codes(torn) == ["3B609"]
+    assert "2.19 mm of uncut work" in dict(summary_rows(torn))["  collision"]
+    assert complaints(json.loads(report_text(build_report(torn)))) == []
+
+
 def test_a_pause_widens_the_kerf_of_its_block_and_not_the_nominal_size() -> None:
     event = Event("pause", 2, share=0.5, for_s=200.0)
     plain = build_report(run_text(OPENING, kerf=True))["remains"]

@@ -38,7 +38,7 @@ export function jobOf(panel) {
     },
     discharge: { ...panel.discharge },
     servo: { ...panel.servo },
-    bounds: { ...panel.bounds, area_rate_mm2_min: panel.bounds.area_rate_mm2_min ?? Infinity, is_manned: 1 },
+    bounds: { ...panel.bounds, area_rate_mm2_min: panel.bounds.area_rate_mm2_min ?? Infinity, is_reversed: 0, is_manned: 1 },
     happenings: {
       kind: Float64Array.from(happenings.kind), for_s: Float64Array.from(happenings.for_s),
       size: Float64Array.from(happenings.size), at: Float64Array.from(happenings.at),

@@ -9,7 +9,7 @@ import { newKeys } from "./keys.js";
 import { newCut } from "./machine.js";
 import { place_um } from "./plain_gap.js";
 import {
-  ARC_SHARE, BREAKS_AGAIN, BROKEN, FARTHEST, FINISHED, IN_VAIN, LOGGED, ON_US, OPEN_US, POWERLESS, ROW, RUNNING, SHORTED, SHORT_US, STALLED,
+  ARC_SHARE, BREAKS_AGAIN, BROKEN, COLLIDED, FARTHEST, FINISHED, IN_VAIN, LOGGED, ON_US, OPEN_US, POWERLESS, ROW, RUNNING, SHORTED, SHORT_US, STALLED,
   TICKS, TICK_S, TICK_US,
 } from "./plain_state.js";
 import { widen } from "./plain_walls.js";
@@ -26,7 +26,7 @@ const list = element("#events ol", HTMLElement);
 const alarm = element("#alarm", HTMLElement);
 /** @type {Record<number, string>} */
 const ALARMS = {
-  [IN_VAIN]: "in_vain", [SHORTED]: "shorted", [STALLED]: "stalled", [BREAKS_AGAIN]: "breaks_again", [BROKEN]: "broken",
+  [IN_VAIN]: "in_vain", [SHORTED]: "shorted", [STALLED]: "stalled", [BREAKS_AGAIN]: "breaks_again", [BROKEN]: "broken", [COLLIDED]: "collided",
   [POWERLESS]: "powerless", [FINISHED]: "finished",
 };
 const CHUNK = 50; // ticks between looks at the time

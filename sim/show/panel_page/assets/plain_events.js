@@ -1,7 +1,7 @@
 // Written by `make pages` from sim/process/ticks/events.py.
 import { place_um } from "./plain_gap.js";
 import { note } from "./plain_log.js";
-import { AREA_RATE, AT, BREAK, BREAK_UM, BREAKS, BREAKS_HERE, BUSY_US, CHIP_CLEAR_UM, CHIP_UM, CHIP_UNTIL, CHIPS, CHIPS_FACTOR, CHIPS_UNTIL, DRUM_OFF, DRUMLESS_UNTIL, HOLD_UNTIL, KNOB, LOST_TICKS, NEXT_BY_STEP, NEXT_BY_TIME, PAUSE, POWER, POWER_OUT, PROGRESS_TICK, PUMP_OFF, PUMPLESS_UNTIL, RESET_UM_S, RESIDUE, ROW, SET_SHARE, SHORT, SPARKLESS_UNTIL, SPARKS_OFF, TICK_S, TICKS, UNCOOLED_TICKS, WIRE_OUT } from "./plain_state.js";
+import { AREA_RATE, AT, AT_ORIGIN, BREAK, BREAK_UM, BREAKS, BREAKS_HERE, BUSY_US, CHIP_CLEAR_UM, CHIP_UM, CHIP_UNTIL, CHIPS, CHIPS_FACTOR, CHIPS_UNTIL, DRUM_OFF, DRUMLESS_UNTIL, FAR_ROW, FARTHEST, FLOOR_UM, FRONT_UM, HOLD_UNTIL, KNOB, LOST_TICKS, NEXT_BY_STEP, NEXT_BY_TIME, ORIGIN, PAUSE, POWER, POWER_OUT, PROGRESS_TICK, PUMP_OFF, PUMPLESS_UNTIL, RESET_UM_S, RESIDUE, ROW, SET_SHARE, SHORT, SINGLE, SINGLE_S, SKIP, SPARKLESS_UNTIL, SPARKS_OFF, TICK_S, TICKS, UNCOOLED_TICKS, WIRE_OUT } from "./plain_state.js";
 /** @import { Job } from "./plain_state.js" */
 
 const _SAME_PLACE_UM = 1000.0;
@@ -39,6 +39,7 @@ export function thread_wire(job, state, is_from_start) {
   state[UNCOOLED_TICKS] = 0.0;
   state[AREA_RATE] = 0.0;
   state[WIRE_OUT] = 0.0;
+  state[AT_ORIGIN] = 0.0;
 }
 
 /**
@@ -55,7 +56,7 @@ export function tear_wire(job, state) {
   state[BREAKS_HERE] = is_here ? (state[BREAKS_HERE] + 1.0) : 1.0;
   state[BREAK_UM] = (state[BREAKS_HERE] === 1.0) ? place : state[BREAK_UM];
   state[WIRE_OUT] = 1.0;
-  if (job.bounds.is_manned === 0.0) {
+  if ((job.bounds.is_manned + job.bounds.is_reversed) === 0.0) {
     thread_wire(job, state, job.bounds.is_from_start);
   }
 }
@@ -87,6 +88,25 @@ export function cut_power(job, state) {
 }
 
 /**
+ * Leave out the rest of a block: the control counts from where it stands, and the wire cuts on from there.
+ * @param {Job} job
+ * @param {Float64Array} state
+ * @returns {void}
+ */
+export function skip_block(job, state) {
+  let row = Math.trunc(Number(state[ROW]));
+  const gap_um = state[FRONT_UM] - place_um(job, state);
+  state[AT] = job.way.before[row + 1];
+  state[FARTHEST] = state[AT];
+  row = Math.min(row + 1, job.way.before.length - 2);
+  state[ROW] = Number(row);
+  state[FAR_ROW] = Number(row);
+  state[FLOOR_UM] = place_um(job, state);
+  state[FRONT_UM] = state[FLOOR_UM] + gap_um;
+  state[RESIDUE] = 0.0;
+}
+
+/**
  * Turn a switch or the knob, or let chips gather, until a tick.
  * @param {Float64Array} state
  * @param {number} kind
@@ -108,6 +128,8 @@ export function turn_switch(state, kind, until, size) {
     state[DRUMLESS_UNTIL] = until;
   } else if (kind === KNOB) {
     state[SET_SHARE] = size;
+  } else if (kind === SINGLE) {
+    state[SINGLE_S] = size;
   }
 }
 
@@ -141,7 +163,14 @@ export function happen(job, state, at) {
     return;
   }
   note(job, state, kind, size);
-  turn_switch(state, kind, until, size);
+  if (kind === SKIP) {
+    skip_block(job, state);
+  } else if (kind === ORIGIN) {
+    state[AT_ORIGIN] = 1.0;
+    state[WIRE_OUT] = 1.0;
+  } else {
+    turn_switch(state, kind, until, size);
+  }
 }
 
 /**

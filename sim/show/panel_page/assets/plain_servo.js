@@ -1,6 +1,6 @@
 // Written by `make pages` from sim/process/ticks/servo.py.
 import { path_to_um, place_um, step_um } from "./plain_gap.js";
-import { ARC_SHARE, AT, DUTY, FAR_ROW, FAR_UM, FARTHEST, GAP_UM, NEXT_BY_STEP, ON_US, OPEN_US, PROGRESS_TICK, RESET_UM_S, RESIDUE, RETREATED_UM, ROW, SET_SHARE, SHORT_US, SPARKLESS_UNTIL, TICK_S, TICK_SPARKS, TICK_US, TICKS, WINDOW } from "./plain_state.js";
+import { ARC_SHARE, AT, DUTY, FAR_ROW, FAR_UM, FARTHEST, FLOOR_UM, GAP_UM, NEXT_BY_STEP, ON_US, OPEN_US, PROGRESS_TICK, RESET_UM_S, RESIDUE, RETREATED_UM, ROW, SET_SHARE, SHORT_US, SPARKLESS_UNTIL, TICK_S, TICK_SPARKS, TICK_US, TICKS, WINDOW } from "./plain_state.js";
 /** @import { Job } from "./plain_state.js" */
 
 const _ROUNDING_UM = 1e-06;
@@ -107,7 +107,7 @@ export function next_stop(job, state) {
 export function go_back(job, state) {
   const far_row = Math.trunc(Number(state[FAR_ROW]));
   const far_um = path_to_um(job, far_row, state[FARTHEST]);
-  const lowest_um = Math.max(far_um - job.servo.ring_um, job.way.thread_um[far_row]) - _ROUNDING_UM;
+  const lowest_um = Math.max(far_um - job.servo.ring_um, job.way.thread_um[far_row], state[FLOOR_UM]) - _ROUNDING_UM;
   const here_um = place_um(job, state);
   while (state[RESIDUE] <= (-1.0)) {
     if ((state[AT] <= 0.0) || ((place_um(job, state) - step_um(job, Math.trunc(Number(state[ROW])))) < lowest_um)) {

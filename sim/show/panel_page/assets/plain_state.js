@@ -24,6 +24,8 @@ export const BROKEN = 6;
 
 export const POWERLESS = 7;
 
+export const COLLIDED = 8;
+
 export const VOLTAGE = 0;
 
 export const WINDOW = 1;
@@ -51,6 +53,12 @@ export const KNOB = 9;
 export const CLEARED = 10;
 
 export const STOPPED = 11;
+
+export const SINGLE = 12;
+
+export const SKIP = 13;
+
+export const ORIGIN = 14;
 
 export const TICKS = 0;
 
@@ -170,7 +178,13 @@ export const IS_BY_HAND = 57;
 
 export const HAND_UM = 58;
 
-export const STATE_SIZE = 59;
+export const SINGLE_S = 59;
+
+export const FLOOR_UM = 60;
+
+export const AT_ORIGIN = 61;
+
+export const STATE_SIZE = 62;
 
 /**
  * The stepped path, n blocks.
@@ -247,6 +261,7 @@ export function Servo(law, gain_um_s, reset_s, least_um_s, most_um_s, ring_um) {
  * @property {number} restart_s
  * @property {number} jog_um_s
  * @property {number} is_from_start
+ * @property {number} is_reversed
  * @property {number} is_manned
  */
 
@@ -257,11 +272,12 @@ export function Servo(law, gain_um_s, reset_s, least_um_s, most_um_s, ring_um) {
  * @param {number} restart_s
  * @param {number} jog_um_s
  * @param {number} is_from_start
+ * @param {number} is_reversed
  * @param {number} is_manned
  * @returns {Bounds}
  */
-export function Bounds(short_s, area_rate_mm2_min, thread_s, restart_s, jog_um_s, is_from_start, is_manned) {
-  return { short_s, area_rate_mm2_min, thread_s, restart_s, jog_um_s, is_from_start, is_manned };
+export function Bounds(short_s, area_rate_mm2_min, thread_s, restart_s, jog_um_s, is_from_start, is_reversed, is_manned) {
+  return { short_s, area_rate_mm2_min, thread_s, restart_s, jog_um_s, is_from_start, is_reversed, is_manned };
 }
 
 /**

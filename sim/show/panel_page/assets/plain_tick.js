@@ -1,9 +1,9 @@
 // Written by `make pages` from sim/process/ticks/tick.py.
-import { let_happen, tear_wire } from "./plain_events.js";
+import { let_happen, stand, tear_wire } from "./plain_events.js";
 import { let_spark, look, place_um } from "./plain_gap.js";
 import { note, record } from "./plain_log.js";
 import { move, way_of_law } from "./plain_servo.js";
-import { AT, BREAKS_AGAIN, BREAKS_HERE, BROKEN, FINISHED, HAND_UM, HOLD_UNTIL, IN_VAIN, IS_BY_HAND, LOST_TICKS, POWER_OUT, POWERLESS, PROGRESS_TICK, REMOVED_UM3, RUNNING, SHORT_TICKS, SHORTED, STALLED, STOPPED, TICK_S, TICKS, WIRE_OUT } from "./plain_state.js";
+import { AT, AT_ORIGIN, BREAKS_AGAIN, BREAKS_HERE, BROKEN, COLLIDED, FARTHEST, FINISHED, HAND_UM, HOLD_UNTIL, IN_VAIN, IS_BY_HAND, LOST_TICKS, POWER_OUT, POWERLESS, PROGRESS_TICK, REMOVED_UM3, ROW, RUNNING, SHORT_TICKS, SHORTED, SINGLE_S, STALLED, STOPPED, TICK_S, TICKS, WIRE_OUT } from "./plain_state.js";
 import { breaks, watch_short } from "./plain_watch.js";
 /** @import { Job } from "./plain_state.js" */
 
@@ -36,10 +36,33 @@ export function way_of_tick(job, state) {
  * @returns {number}
  */
 export function waits_for(state) {
+  if (state[AT_ORIGIN] > 0.0) {
+    return COLLIDED;
+  }
   if (state[WIRE_OUT] > 0.0) {
     return (state[BREAKS_HERE] >= _MOST_BREAKS_HERE) ? BREAKS_AGAIN : BROKEN;
   }
   return (state[POWER_OUT] > 0.0) ? POWERLESS : RUNNING;
+}
+
+/**
+ * Why the control stops by itself, `RUNNING` where it does not; by hand it goes where hands want.
+ * @param {Job} job
+ * @param {Float64Array} state
+ * @param {boolean} is_in_vain
+ * @returns {number}
+ */
+export function alarm(job, state, is_in_vain) {
+  if (state[IS_BY_HAND] > 0.0) {
+    return RUNNING;
+  }
+  if (is_in_vain) {
+    return IN_VAIN;
+  }
+  if ((state[SHORT_TICKS] * TICK_S) > job.bounds.short_s) {
+    return SHORTED;
+  }
+  return ((state[TICKS] - state[PROGRESS_TICK]) > _STALL_TICKS) ? STALLED : RUNNING;
 }
 
 /**
@@ -64,15 +87,13 @@ export function tick(job, state) {
     tear_wire(job, state);
     return (state[BREAKS_HERE] >= _MOST_BREAKS_HERE) ? BREAKS_AGAIN : waits_for(state);
   }
-  const is_in_vain = move(job, state, way_of_tick(job, state)) && (state[IS_BY_HAND] === 0.0);
+  const row = state[ROW];
+  const is_in_vain = move(job, state, way_of_tick(job, state));
   state[TICKS] += 1.0;
-  if (is_in_vain) {
-    return IN_VAIN;
+  if ((state[SINGLE_S] > 0.0) && (state[ROW] > row) && (state[AT] === state[FARTHEST])) {
+    stand(state, state[SINGLE_S]);
   }
-  if (((state[SHORT_TICKS] * TICK_S) > job.bounds.short_s) && (state[IS_BY_HAND] === 0.0)) {
-    return SHORTED;
-  }
-  return ((state[TICKS] - state[PROGRESS_TICK]) > _STALL_TICKS) ? STALLED : RUNNING;
+  return alarm(job, state, is_in_vain);
 }
 
 /**
