@@ -13,6 +13,7 @@ from parser.toolpath import Point
 from parser.units import from_mm
 from sim.process.happenings import KINDS, happenings_of
 from sim.process.sparks import CRATERS, Steady, steady
+from sim.process.spread import TimeWithin, time_within
 from sim.process.ticks import state as ticks
 from sim.process.ticks.state import Bounds, Discharge, Job, Records, Servo, Walls
 from sim.process.ticks.tick import run_ticks
@@ -78,6 +79,8 @@ class ProcessRun(NamedTuple):
         What it was cut with.
     time_s, lost_s
         All of it, jumps left out, and what of it went into shorts, breaks, waits.
+    within
+        Between which times runs of other seeds lie; None where nothing comes at random.
     sparks
         How many there were.
     mean
@@ -105,6 +108,7 @@ class ProcessRun(NamedTuple):
     spark: Spark
     time_s: float
     lost_s: float
+    within: TimeWithin | None
     sparks: int
     mean: Steady
     shorts: int
@@ -150,11 +154,14 @@ def run_sparks(work: Work, spark: Spark, events: Sequence[Event] = ()) -> Proces
     cut = started(work, spark, events)
     came_to = ticks.RUNNING if len(cut.rows.row) else ticks.FINISHED
     came_to = _run_on(cut, came_to)
-    run = _result(cut, came_to)
-    if came_to != ticks.BROKEN:
-        return run
-    back = cut_from_end(cut)
-    return _joined(run, _result(back, _run_on(back, ticks.RUNNING)))
+    run, state = _result(cut, came_to), cut.state
+    if came_to == ticks.BROKEN:
+        back = cut_from_end(cut)
+        run, state = _joined(run, _result(back, _run_on(back, ticks.RUNNING))), back.state
+    cut_s = float(state[ticks.TICKS] - state[ticks.STOOD_TICKS]) * ticks.TICK_S
+    length_um, drawn_for_s = float(cut.rows.way.along_um[-1]), _drawn_for_s(cut.rows, work, spark)
+    within = None if run.stopped else time_within(spark, events, (run.time_s, cut_s), length_um, drawn_for_s)
+    return run._replace(within=within)
 
 
 def _run_on(cut: Started, came_to: int) -> int:
@@ -180,11 +187,14 @@ def cut_from_end(cut: Started) -> Started:
         by_step=np.zeros(1),
     )
     state = cut.state.copy()
-    passed = [ticks.SEED_1, ticks.SEED_2, ticks.SET_SHARE, ticks.TICKS, ticks.NEXT_BY_TIME]
+    passed = [
+        *(ticks.SEED_1, ticks.SEED_2, ticks.SET_SHARE, ticks.TICKS),
+        *(ticks.NEXT_BY_TIME, ticks.NEXT_BY_CUT, ticks.STOOD_TICKS),
+    ]
     state[:] = 0.0
     state[passed], state[ticks.HISTORY_STRIDE] = cut.state[passed], 1.0
     threading_ticks = float(np.rint(spark.thread_s / ticks.TICK_S))
-    state[ticks.TICKS] += threading_ticks
+    state[[ticks.TICKS, ticks.STOOD_TICKS]] += threading_ticks
     state[ticks.LOST_TICKS], state[ticks.PROGRESS_TICK] = threading_ticks, state[ticks.TICKS]
     walls = walls_of(cut.work, rows, spark, float(job.records.stretch_um[0]))
     return Started(cut.work, rows, spark, job._replace(happenings=timed), state, walls)
@@ -244,7 +254,7 @@ def job_of(work: Work, rows: CutRows, spark: Spark, events: Sequence[Event]) -> 
             is_reversed=float(spark.threading == "reverse"),
             is_manned=0.0,
         ),
-        happenings=happenings_of(rows, spark, events, 2.0 * _usual_s(rows, work, spark) + 60.0),
+        happenings=happenings_of(rows, spark, events, _drawn_for_s(rows, work, spark)),
         records=Records(
             lit_s=np.zeros(int(length_um / stretch_um) + 1),
             stretch_um=np.array([stretch_um]),
@@ -263,6 +273,11 @@ def state_of(spark: Spark) -> Floats:
     state[ticks.SET_SHARE] = spark.filled.set_value
     state[ticks.HISTORY_STRIDE] = 1.0
     return state
+
+
+def _drawn_for_s(rows: CutRows, work: Work, spark: Spark) -> float:
+    """Time for which random events are drawn: twice as long as the cut takes."""
+    return 2.0 * _usual_s(rows, work, spark) + 60.0
 
 
 def _usual_s(rows: CutRows, work: Work, spark: Spark) -> float:
@@ -288,6 +303,7 @@ def _result(cut: Started, came_to: int) -> ProcessRun:
         spark=cut.spark,
         time_s=time_s,
         lost_s=float(state[ticks.LOST_TICKS]) * ticks.TICK_S,
+        within=None,
         sparks=int(state[ticks.ALL_SPARKS]),
         mean=_mean(state, work.height_um),
         shorts=int(state[ticks.SHORTS]),

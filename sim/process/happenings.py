@@ -38,24 +38,22 @@ class _Timed(NamedTuple):
 
 def happenings_of(rows: CutRows, spark: Spark, events: Sequence[Event], guessed_s: float) -> Happenings:
     """Events in the order in which they come; random ones are drawn for `guessed_s` of a cut."""
-    if spark.breaks_per_h:
-        events = [*events, Event("break", per_h=spark.breaks_per_h)]
-    by_step, by_time = list[_Timed](), list[_Timed]()
-    for number, event in enumerate(events):
+    by_step, by_time, by_cut = list[_Timed](), list[_Timed](), list[_Timed]()
+    for number, event in enumerate(with_own_breaks(spark, events)):
         if event.block is not None:
             by_step += [_Timed(step, event) for step in _steps_of(rows, event.block, event.share)]
         elif event.at_s is not None:
             by_time.append(_Timed(_ticks(event.at_s), event))
-        elif event.per_h is not None:
-            source = [spark.seed, number] if event.seed is None else [event.seed]
-            by_time += [_Timed(tick, event) for tick in _drawn(event.per_h, source, guessed_s)]
-    both = [*sorted(by_step, key=lambda each: each.at), *sorted(by_time, key=lambda each: each.at)]
+        else:
+            by_cut += [_Timed(tick, event) for tick in drawn_ticks(event, spark.seed, number, guessed_s)]
+    both = [each for part in (by_step, by_time, by_cut) for each in sorted(part, key=lambda each: each.at)]
     return Happenings(
         kind=np.array([KINDS[each.event.kind] for each in both], dtype=np.float64),
         for_s=np.array([each.event.for_s for each in both], dtype=np.float64),
         size=np.array([_size(each.event) for each in both], dtype=np.float64),
         at=np.array([each.at for each in both], dtype=np.float64),
         by_step=np.array([len(by_step)], dtype=np.float64),
+        by_time=np.array([len(by_time)], dtype=np.float64),
     )
 
 
@@ -75,9 +73,20 @@ def _steps_of(rows: CutRows, block: int, share: float) -> Iterator[float]:
         yield first + math.floor((last - first) * share)
 
 
-def _drawn(per_h: float, source: Sequence[int], guessed_s: float) -> list[float]:
-    """Ticks of what comes at random: waits between them are exponential."""
+def with_own_breaks(spark: Spark, events: Sequence[Event]) -> Sequence[Event]:
+    """The events of a cut, with the breaks that come without a reason, where there are any."""
+    return [*events, Event("break", per_h=spark.breaks_per_h)] if spark.breaks_per_h else events
+
+
+def drawn_ticks(event: Event, seed: int, number: int, drawn_for_s: float) -> list[float]:
+    """Ticks of cutting at which an event comes at random, none for one that has its place; waits are exponential.
+
+    It goes by its own seed, else by that of the cut and its number among the events.
+    """
+    if event.per_h is None:
+        return []
+    source = [seed, number] if event.seed is None else [event.seed]
     random = np.random.Generator(np.random.PCG64(np.random.SeedSequence(source)))
-    most = min(int(guessed_s / 3600.0 * per_h * 2.0) + 20, _MOST_DRAWN)
-    at_s = np.cumsum(-np.log1p(-random.random(most)) * 3600.0 / per_h)
-    return [_ticks(each) for each in at_s[at_s < guessed_s].tolist()]
+    most = min(int(drawn_for_s / 3600.0 * event.per_h * 2.0) + 20, _MOST_DRAWN)
+    at_s = np.cumsum(-np.log1p(-random.random(most)) * 3600.0 / event.per_h)
+    return [_ticks(each) for each in at_s[at_s < drawn_for_s].tolist()]

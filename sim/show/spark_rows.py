@@ -4,6 +4,7 @@ from parser.text.source import BlockNames
 from parser.units import mm, mm_text
 from sim.base.units import in_figures
 from sim.process.cut import ProcessRun
+from sim.process.spread import LEVEL
 from sim.show.texts import Words
 from sim.show.texts.phrases import catalogued, lasting
 
@@ -22,6 +23,9 @@ def spark_rows(process: ProcessRun | None, names: BlockNames, tell: Words) -> li
         rate=f"{mean.area_rate_mm2_min:.3g}",
     )
     time = getattr(lasting(process.time_s), tell.language)
+    if process.within is not None:
+        least, most = map(lasting, process.within)
+        time = tell("sparks.time-within", time=time, least=least, most=most, level=round(100.0 * LEVEL))
     if process.lost_s:
         time = tell("sparks.time-lost", time=time, lost=lasting(process.lost_s))
     return [

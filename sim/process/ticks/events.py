@@ -30,6 +30,7 @@ from sim.process.ticks.state import (
     HOLD_UNTIL,
     KNOB,
     LOST_TICKS,
+    NEXT_BY_CUT,
     NEXT_BY_STEP,
     NEXT_BY_TIME,
     ORIGIN,
@@ -49,6 +50,7 @@ from sim.process.ticks.state import (
     SKIP,
     SPARKLESS_UNTIL,
     SPARKS_OFF,
+    STOOD_TICKS,
     TICK_S,
     TICKS,
     UNCOOLED_TICKS,
@@ -64,6 +66,7 @@ def stand(state: Floats, seconds: float) -> None:
     """Let time go by without sparks."""
     ticks = math.floor(seconds / TICK_S + 0.5)
     state[TICKS] += ticks
+    state[STOOD_TICKS] += ticks
     state[LOST_TICKS] += ticks
     state[PROGRESS_TICK] = state[TICKS]
     state[BUSY_US] = 0.0
@@ -185,13 +188,20 @@ def happen(job: Job, state: Floats, at: int) -> None:
 
 @loop_part("void(Job, f8[::1])", Job)
 def let_happen(job: Job, state: Floats) -> None:
-    """Begin what happens at this step, and at this time."""
+    """Begin what happens at this step, at this time, and after so much time of cutting."""
     happenings = job.happenings
     by_step = int(happenings.by_step[0])
+    by_time = by_step + int(happenings.by_time[0])
     while state[NEXT_BY_STEP] < by_step and happenings.at[int(state[NEXT_BY_STEP])] <= state[AT]:
         state[NEXT_BY_STEP] += 1.0
         happen(job, state, int(state[NEXT_BY_STEP]) - 1)
-    count = len(happenings.at) - by_step
-    while state[NEXT_BY_TIME] < count and happenings.at[by_step + int(state[NEXT_BY_TIME])] <= state[TICKS]:
+    while by_step + state[NEXT_BY_TIME] < by_time and happenings.at[by_step + int(state[NEXT_BY_TIME])] <= state[TICKS]:
         state[NEXT_BY_TIME] += 1.0
         happen(job, state, by_step + int(state[NEXT_BY_TIME]) - 1)
+    rest = len(happenings.at) - by_time
+    while (
+        state[NEXT_BY_CUT] < rest
+        and happenings.at[by_time + int(state[NEXT_BY_CUT])] <= state[TICKS] - state[STOOD_TICKS]
+    ):
+        state[NEXT_BY_CUT] += 1.0
+        happen(job, state, by_time + int(state[NEXT_BY_CUT]) - 1)

@@ -114,7 +114,9 @@ HAND_UM = 58
 SINGLE_S = 59
 FLOOR_UM = 60
 AT_ORIGIN = 61
-STATE_SIZE = 62
+STOOD_TICKS = 62
+NEXT_BY_CUT = 63
+STATE_SIZE = 64
 
 
 class Way(NamedTuple):
@@ -205,7 +207,7 @@ class Bounds(NamedTuple):
 
 
 class Happenings(NamedTuple):
-    """What happens: first what does so at a step, in the order of these, then what does so at a time.
+    """What happens: at a step, then at a time, then after so much time of cutting, each in order.
 
     Attributes
     ----------
@@ -213,9 +215,9 @@ class Happenings(NamedTuple):
         (k,) which, how long, and how much: of a short the way back that clears it, µm; of chips a factor; of a power
         loss 1 where the control keeps its place; of the knob the new set value; of single block the time of each stop.
     at
-        (k,) step, or tick.
-    by_step
-        (1,) how many of them come at a step.
+        (k,) step, or tick, or tick of cutting, which leaves out the time that a cut stands.
+    by_step, by_time
+        (1,) how many of them come at a step, and how many at a time.
     """
 
     kind: Floats
@@ -223,6 +225,7 @@ class Happenings(NamedTuple):
     size: Floats
     at: Floats
     by_step: Floats
+    by_time: Floats
 
 
 class Records(NamedTuple):

@@ -25,6 +25,7 @@ from sim.cut.sizes import BoxSize, DistanceSize, RadiusSize, Sizes
 from sim.measure.causes import Deviations, Part
 from sim.measure.deviation import Deviation, Where
 from sim.process.cut import Moment, ProcessRun
+from sim.process.spread import LEVEL
 from sim.run.dryrun import DryRun, Ending
 from sim.run.report.cut_model import (
     BoxEntry,
@@ -145,6 +146,9 @@ def spark_entry(process: ProcessRun | None) -> SparkEntry | None:
         "retreated_um": rounded(process.retreated_um),
         "lost_s": rounded(process.lost_s),
         "time_s": rounded(process.time_s),
+        "time_within_s": None
+        if process.within is None
+        else {"least": rounded(process.within.least_s), "most": rounded(process.within.most_s), "level": LEVEL},
         "sparks": process.sparks,
         "seed": process.spark.seed,
         "stopped": None if stopped is None else _spark_moment(stopped),

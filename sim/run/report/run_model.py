@@ -287,6 +287,14 @@ class SparkMarkEntry(TypedDict):
     within_um: Size
 
 
+class SparkTimeEntry(TypedDict):
+    """Times between which a share `level` of runs of other seeds lie."""
+
+    least: Size
+    most: Size
+    level: float
+
+
 class SparkEntry(TypedDict):
     """The cut under sparks: means of the time in which there was something to cut, and what happened."""
 
@@ -299,6 +307,7 @@ class SparkEntry(TypedDict):
     retreated_um: Size
     lost_s: Size
     time_s: Size
+    time_within_s: SparkTimeEntry | None
     sparks: Count
     seed: Count
     stopped: SparkMomentEntry | None

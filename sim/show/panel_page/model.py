@@ -63,6 +63,7 @@ class PanelEventsEntry(TypedDict):
     size: list[float]
     at: list[float]
     by_step: list[float]
+    by_time: list[float]
 
 
 class PanelModeEntry(TypedDict):

@@ -118,7 +118,9 @@ def _manned(cut: Started) -> Started:
     """The cut with somebody at it, without events, whose records are its own."""
     job = cut.job
     none = np.zeros(0)
-    happenings = job.happenings._replace(kind=none, for_s=none, size=none, at=none, by_step=np.zeros(1))
+    happenings = job.happenings._replace(
+        kind=none, for_s=none, size=none, at=none, by_step=np.zeros(1), by_time=np.zeros(1)
+    )
     fresh = Records(
         lit_s=np.zeros_like(job.records.lit_s),
         stretch_um=job.records.stretch_um,

@@ -126,7 +126,7 @@ CLOSED = OPENING.removesuffix("DD") + "B0B1900B1900GYL2 DD"
 
 
 def test_a_reverse_cut_meets_the_break_point_to_the_step() -> None:
-    """The rest is cut from the end of the path: its blocks take the same time, and its last step is that of the break."""
+    """The rest is cut from the end of the path: its blocks take the same time, its last step is that of the break."""
     work = work_of(CLOSED)
     plain = run_sparks(work, QUICK)
     run = run_sparks(work, QUICK._replace(threading="reverse"), [Event("break", 4, share=0.3)])

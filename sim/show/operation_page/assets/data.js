@@ -75,6 +75,7 @@ import { element } from "../../html/assets/elements.js";
  * @property {number[]} size
  * @property {number[]} at
  * @property {number[]} by_step
+ * @property {number[]} by_time
  */
 
 /**

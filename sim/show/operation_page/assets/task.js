@@ -17,7 +17,7 @@ const OUTCOMES = ["goes_on", "stands", "breaks_then", "shorts_then", "too_slow"]
  * @param {number[]} actions
  */
 export function outcomeOf(data, drill, actions) {
-  const none = { kind: [], for_s: [], size: [], at: [], by_step: [0] };
+  const none = { kind: [], for_s: [], size: [], at: [], by_step: [0], by_time: [0] };
   return judge(jobOf({ ...data.panel, happenings: none }), Float64Array.from(drill.state), Float64Array.from(actions), drill.least_um);
 }
 

@@ -42,7 +42,7 @@ export function jobOf(panel) {
     happenings: {
       kind: Float64Array.from(happenings.kind), for_s: Float64Array.from(happenings.for_s),
       size: Float64Array.from(happenings.size), at: Float64Array.from(happenings.at),
-      by_step: Float64Array.from(happenings.by_step),
+      by_step: Float64Array.from(happenings.by_step), by_time: Float64Array.from(happenings.by_time),
     },
     records: {
       lit_s: new Float64Array(Math.floor(length / panel.stretch_um) + 1), stretch_um: Float64Array.of(panel.stretch_um),

@@ -1,7 +1,7 @@
 // Written by `make pages` from sim/process/ticks/events.py.
 import { place_um } from "./plain_gap.js";
 import { note } from "./plain_log.js";
-import { AREA_RATE, AT, AT_ORIGIN, BREAK, BREAK_UM, BREAKS, BREAKS_HERE, BUSY_US, CHIP_CLEAR_UM, CHIP_UM, CHIP_UNTIL, CHIPS, CHIPS_FACTOR, CHIPS_UNTIL, DRUM_OFF, DRUMLESS_UNTIL, FAR_ROW, FARTHEST, FLOOR_UM, FRONT_UM, HOLD_UNTIL, KNOB, LOST_TICKS, NEXT_BY_STEP, NEXT_BY_TIME, ORIGIN, PAUSE, POWER, POWER_OUT, PROGRESS_TICK, PUMP_OFF, PUMPLESS_UNTIL, RESET_UM_S, RESIDUE, ROW, SET_SHARE, SHORT, SINGLE, SINGLE_S, SKIP, SPARKLESS_UNTIL, SPARKS_OFF, TICK_S, TICKS, UNCOOLED_TICKS, WIRE_OUT } from "./plain_state.js";
+import { AREA_RATE, AT, AT_ORIGIN, BREAK, BREAK_UM, BREAKS, BREAKS_HERE, BUSY_US, CHIP_CLEAR_UM, CHIP_UM, CHIP_UNTIL, CHIPS, CHIPS_FACTOR, CHIPS_UNTIL, DRUM_OFF, DRUMLESS_UNTIL, FAR_ROW, FARTHEST, FLOOR_UM, FRONT_UM, HOLD_UNTIL, KNOB, LOST_TICKS, NEXT_BY_CUT, NEXT_BY_STEP, NEXT_BY_TIME, ORIGIN, PAUSE, POWER, POWER_OUT, PROGRESS_TICK, PUMP_OFF, PUMPLESS_UNTIL, RESET_UM_S, RESIDUE, ROW, SET_SHARE, SHORT, SINGLE, SINGLE_S, SKIP, SPARKLESS_UNTIL, SPARKS_OFF, STOOD_TICKS, TICK_S, TICKS, UNCOOLED_TICKS, WIRE_OUT } from "./plain_state.js";
 /** @import { Job } from "./plain_state.js" */
 
 const _SAME_PLACE_UM = 1000.0;
@@ -15,6 +15,7 @@ const _SAME_PLACE_UM = 1000.0;
 export function stand(state, seconds) {
   const ticks = Math.floor((seconds / TICK_S) + 0.5);
   state[TICKS] += ticks;
+  state[STOOD_TICKS] += ticks;
   state[LOST_TICKS] += ticks;
   state[PROGRESS_TICK] = state[TICKS];
   state[BUSY_US] = 0.0;
@@ -174,7 +175,7 @@ export function happen(job, state, at) {
 }
 
 /**
- * Begin what happens at this step, and at this time.
+ * Begin what happens at this step, at this time, and after so much time of cutting.
  * @param {Job} job
  * @param {Float64Array} state
  * @returns {void}
@@ -182,13 +183,18 @@ export function happen(job, state, at) {
 export function let_happen(job, state) {
   const happenings = job.happenings;
   const by_step = Math.trunc(Number(happenings.by_step[0]));
+  const by_time = by_step + Math.trunc(Number(happenings.by_time[0]));
   while ((state[NEXT_BY_STEP] < by_step) && (happenings.at[Math.trunc(Number(state[NEXT_BY_STEP]))] <= state[AT])) {
     state[NEXT_BY_STEP] += 1.0;
     happen(job, state, Math.trunc(Number(state[NEXT_BY_STEP])) - 1);
   }
-  const count = happenings.at.length - by_step;
-  while ((state[NEXT_BY_TIME] < count) && (happenings.at[by_step + Math.trunc(Number(state[NEXT_BY_TIME]))] <= state[TICKS])) {
+  while (((by_step + state[NEXT_BY_TIME]) < by_time) && (happenings.at[by_step + Math.trunc(Number(state[NEXT_BY_TIME]))] <= state[TICKS])) {
     state[NEXT_BY_TIME] += 1.0;
     happen(job, state, (by_step + Math.trunc(Number(state[NEXT_BY_TIME]))) - 1);
+  }
+  const rest = happenings.at.length - by_time;
+  while ((state[NEXT_BY_CUT] < rest) && (happenings.at[by_time + Math.trunc(Number(state[NEXT_BY_CUT]))] <= (state[TICKS] - state[STOOD_TICKS]))) {
+    state[NEXT_BY_CUT] += 1.0;
+    happen(job, state, (by_time + Math.trunc(Number(state[NEXT_BY_CUT]))) - 1);
   }
 }

@@ -184,7 +184,11 @@ export const FLOOR_UM = 60;
 
 export const AT_ORIGIN = 61;
 
-export const STATE_SIZE = 62;
+export const STOOD_TICKS = 62;
+
+export const NEXT_BY_CUT = 63;
+
+export const STATE_SIZE = 64;
 
 /**
  * The stepped path, n blocks.
@@ -281,13 +285,14 @@ export function Bounds(short_s, area_rate_mm2_min, thread_s, restart_s, jog_um_s
 }
 
 /**
- * What happens: first what does so at a step, in the order of these, then what does so at a time.
+ * What happens: at a step, then at a time, then after so much time of cutting, each in order.
  * @typedef {object} Happenings
  * @property {Float64Array} kind
  * @property {Float64Array} for_s
  * @property {Float64Array} size
  * @property {Float64Array} at
  * @property {Float64Array} by_step
+ * @property {Float64Array} by_time
  */
 
 /**
@@ -296,10 +301,11 @@ export function Bounds(short_s, area_rate_mm2_min, thread_s, restart_s, jog_um_s
  * @param {Float64Array} size
  * @param {Float64Array} at
  * @param {Float64Array} by_step
+ * @param {Float64Array} by_time
  * @returns {Happenings}
  */
-export function Happenings(kind, for_s, size, at, by_step) {
-  return { kind, for_s, size, at, by_step };
+export function Happenings(kind, for_s, size, at, by_step, by_time) {
+  return { kind, for_s, size, at, by_step, by_time };
 }
 
 /**
