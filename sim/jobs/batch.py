@@ -30,7 +30,7 @@ from sim.base.files import scratch, staged
 from sim.base.units import rounded
 from sim.base.workers.rounds import DIED, Lost, Maker, Pool, made_by, refuse_other_makers, results
 from sim.jobs.index import Entry, Row, build_index, index_text
-from sim.jobs.run_into import FILES, NAMES, run_into
+from sim.jobs.run_into import FILES, NAMES, PANEL, run_into
 from sim.jobs.shop import ShopProgram, source_of
 from sim.run.dryrun import DryRun
 from sim.run.findings import to_check, verdict
@@ -113,7 +113,9 @@ def _run(task: Task, folder: Path) -> Done:
         here, own = _places_of_drawing(scenario, task.scenario)
         raise DrawingError(error.message.with_values(lambda value: own if str(value) == here else value)) from None
     extra = {task.scenario.program.name: task.data} if task.is_made else {}
-    return Done(_row(run), {**{name: (made / name).read_bytes() for name in FILES if (made / name).exists()}, **extra})
+    return Done(
+        _row(run), {**{name: (made / name).read_bytes() for name in (*FILES, PANEL) if (made / name).exists()}, **extra}
+    )
 
 
 def _with_drawing(task: Task, folder: Path) -> Scenario:

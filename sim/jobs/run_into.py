@@ -28,10 +28,12 @@ from sim.run.recording import Recording, recording_of, reported, stages_of
 from sim.run.report import build_report, report_text
 from sim.run.report.model import ReportDocument
 from sim.run.running import dry_run
+from sim.run.sparks import panel_cut
 from sim.setup.scenario import Scenario
 from sim.show.draw.sheet import pixels
 from sim.show.drill_page import answers_page, drill_page
 from sim.show.operation_page.page import operation_answers_page, operation_page
+from sim.show.panel_page.page import panel_page
 from sim.show.pictures.cut.of_run import draw_cut_of_run
 from sim.show.pictures.gallery import subject_of
 from sim.show.pictures.inline import inline_pictures
@@ -42,7 +44,9 @@ from sim.teach.operation.incidents import OperationDrill
 
 FILES: Final = ("report.html", "replay.html", "cut.png", "report.json")
 """What every run writes."""
-NAMES: Final = (*FILES, TRACE)
+PANEL: Final = "panel.html"
+"""What a run under sparks writes too."""
+NAMES: Final = (*FILES, PANEL, TRACE)
 """What a run may write: of an earlier run none of these stays."""
 
 
@@ -57,7 +61,7 @@ def run_into(  # noqa: PLR0913 - what it is run with, and whom it tells
     extra: Mapping[str, bytes] = MappingProxyType({}),
     language: Language = "en",
 ) -> DryRun:
-    """Dry-run a program and write `FILES` into a folder, and with `trace` every step and sample, `TRACE`.
+    """Dry-run a program and write its files into a folder, and with `trace` every step and sample, `TRACE`.
 
     Without it a trace of an earlier run goes: none stands beside the files of another run. The calls to the card go to
     `log`. Files `extra`, by their names, are written as they are; ``cut.png`` is in one language, the pages in both.
@@ -92,7 +96,10 @@ def write_files(  # noqa: PLR0913 - what was run, where to, and in which languag
     has_trace: bool = False,
     language: Language = "en",
 ) -> None:
-    """Write `FILES`: the report and what people look at; then nothing holds the files of the steps any more."""
+    """Write `FILES`, under sparks `PANEL` too: the report and what people look at.
+
+    Then nothing holds the files of the steps any more.
+    """
     run, subject = recording.run, subject_of(recording)
     progress("pictures", 0, 1)
     sheet = pixels(language=language)
@@ -105,6 +112,8 @@ def write_files(  # noqa: PLR0913 - what was run, where to, and in which languag
     progress("pages", 2, 3)
     page = report_page(run, report, pictures, recording.pieces, has_trace=has_trace)
     (folder / "report.html").write_text(page, encoding="utf-8")
+    if run.process is not None:
+        (folder / PANEL).write_text(panel_page(run.scenario, panel_cut(run, run.scenario)), encoding="utf-8")
 
 
 LOG: Final = "card.log"

@@ -14,6 +14,7 @@ from parser.program import Program
 from parser.toolpath import Toolpath
 from parser.units import from_mm
 from sim.check.result import CheckState
+from sim.cut.wire_rows import wire_rows
 from sim.measure.passes import PassFigures
 from sim.process.cut import ProcessRun, Started, run_sparks, started
 from sim.process.way import Work, is_cut, is_cut_again
@@ -54,7 +55,8 @@ def under_sparks(work: Work, scenario: Scenario) -> ProcessRun | None:
 def panel_cut(run: DryRun, scenario: Scenario) -> Started:
     """The cut of a run at its start, for who drives it, by the sparks of a scenario; SettingsError as above."""
     steps = interpolate(run.toolpath)
-    work = work_of(run.toolpath, steps, scenario, run.pass_figures, run.reach_um)
+    reach_um = wire_rows(run.toolpath, scenario, run.passes).reach_um
+    work = work_of(run.toolpath, steps, scenario, run.pass_figures, reach_um)
     _refuse_elsewhere(work, scenario)
     return started(work, scenario.spark or Spark(), scenario.events)
 

@@ -1,6 +1,6 @@
 """The state of a cut under sparks, what it goes by, and what it fills: what all ticks share.
 
-Model of brass wire in water after WEDM-Learning-Environment (G. E. Durán, MIT licence): a spark comes with a
+Model of brass wire in water after WEDM-Learning-Environment (geduardo, MIT licence): a spark comes with a
 probability that the gap tells, takes a crater off the front, and pauses. The control looks at each tick and moves along
 the path by whole steps. docs/sparks.md says all of it in words.
 

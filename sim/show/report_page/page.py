@@ -217,7 +217,8 @@ def report_page(
 ) -> str:
     """``report.html`` of a run; `report` is its ``report.json``, whose figures the page shows.
 
-    `pieces` are what the cut leaves, for their weight; with `has_trace` a ``trace.npz`` stands beside the page.
+    `pieces` are what the cut leaves, for their weight; with `has_trace` a ``trace.npz`` stands beside the page, and
+    beside that of a run under sparks a ``panel.html``.
 
     Everything that comes from a program, a file name or a scenario stands escaped. The same run gives the same bytes.
     """

@@ -39,3 +39,13 @@ def test_an_event_in_no_block_is_told_by_its_number(tmp_path: Path) -> None:
     done = run_inside("run", tmp_path)
     assert done.returncode in {1, 2}
     assert "[[event]] 1: block 5 is none that this program cuts" in done.stderr.decode()
+
+
+def test_a_run_under_sparks_writes_its_panel_and_one_without_writes_none(tmp_path: Path) -> None:
+    for options, has_panel in ((["--sparks"], True), ([], False)):
+        program = SCENARIOS / "sparks-chip" / "program.3b"
+        done = run_inside("run", program, "-o", tmp_path / "out", *options)
+        assert done.returncode == 0
+        assert (tmp_path / "out" / "panel.html").exists() == has_panel
+        assert ("panel.html" in done.stdout.decode()) == has_panel
+        assert ('href="panel.html"' in (tmp_path / "out" / "report.html").read_text("utf-8")) == has_panel
