@@ -29,6 +29,8 @@ class Work(NamedTuple):
         (n,) gap at the walls of each block, at the usual feed.
     height_um, wire_um
         Height of the work and diameter of the wire.
+    rows
+        How many of the blocks run: a table that stops early cuts nothing of those behind.
     """
 
     steps: Steps
@@ -38,6 +40,7 @@ class Work(NamedTuple):
     gap_um: Floats
     height_um: float
     wire_um: float
+    rows: int
 
 
 class CutRows(NamedTuple):
@@ -61,7 +64,7 @@ class Standing(NamedTuple):
 def cut_rows(work: Work) -> CutRows:
     """The rows that step; on jumps the wire is out, and it is threaded behind them."""
     toolpath, count = work.toolpath, work.steps.count
-    row = np.flatnonzero((count > 0) & ~toolpath.is_jump)
+    row = np.flatnonzero((count > 0) & ~toolpath.is_jump & (np.arange(len(toolpath)) < work.rows))
     along = np.concatenate([[0.0], np.cumsum(toolpath.length_um[row])])
     jumps_before = np.concatenate([[0], np.cumsum(toolpath.is_jump)])[row]
     is_threaded = np.diff(jumps_before, prepend=-1) > 0

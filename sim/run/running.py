@@ -170,7 +170,7 @@ def run_along(
     border_s = plan.border_s(ready.steps.along_um)
     block_time_s = np.diff(np.minimum(border_s, ended.t_s if ended else plan.duration_s))
     figures = figures_of_passes(toolpath, passes, block_time_s, wire_taken(toolpath, plan, cut), wire.reach_um)
-    process = under_sparks(work_of(toolpath, ready.steps, scenario, figures, wire.reach_um), scenario)
+    process = under_sparks(work_of(ready.steps, toolpath, scenario, figures, wire), scenario, ended)
     reach_um = wire.reach_um if process is None else wire.reach_um + process.wider_um
     is_whole = ended is None
     left = left_of(program, cut, contours, scenario, drawing, reach_um, progress, is_whole=is_whole, measured=measured)

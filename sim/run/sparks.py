@@ -9,16 +9,15 @@ from controller.stepping.steps import Steps, interpolate, words_of
 from parser.dialect.reader import at_block
 from parser.findings.errors import SettingsError
 from parser.findings.findings import Finding
-from parser.geometry.curves import Floats
 from parser.program import Program
 from parser.toolpath import Toolpath
 from parser.units import from_mm
 from sim.check.result import CheckState
-from sim.cut.wire_rows import wire_rows
+from sim.cut.wire_rows import WireRows, wire_rows
 from sim.measure.passes import PassFigures
 from sim.process.cut import ProcessRun, Started, run_sparks, started
 from sim.process.way import Work, is_cut, is_cut_again
-from sim.run.dryrun import DryRun
+from sim.run.dryrun import DryRun, Ending
 from sim.setup.scenario import Scenario
 from sim.setup.spark import Spark
 
@@ -27,36 +26,39 @@ _SPARKS: Final = "check-sparks"
 
 
 def work_of(
-    toolpath: Toolpath, steps: Steps, scenario: Scenario, figures: Sequence[PassFigures], reach_um: Floats
+    steps: Steps, toolpath: Toolpath, scenario: Scenario, figures: Sequence[PassFigures], wire: WireRows
 ) -> Work:
-    """What a control under sparks cuts of a path; `reach_um` (n,) is half the width of the kerf in each row.
+    """What a control under sparks cuts of a path, by what its passes came to, and by the wire in each row.
 
     A block cuts as wide as its kerf, one of a later pass what that takes off, and one that goes back over a line that
     was cut before cuts nothing.
     """
-    width_um = 2.0 * reach_um
+    width_um = 2.0 * wire.reach_um
     for each in figures:
         if each.of.number > 1 and not each.of.is_tab and each.stock is not None:
             width_um[each.of.first : each.of.last + 1] = each.stock.mean_um
     width_um[is_cut_again(toolpath)] = 0.0
-    gap_um = reach_um - scenario.wire.radius_um
+    gap_um = wire.reach_um - scenario.wire.radius_um
     height_um, wire_um = from_mm(scenario.thickness_mm), scenario.wire.diameter_um
-    return Work(steps, words_of(toolpath), toolpath, width_um, gap_um, height_um, wire_um)
+    return Work(steps, words_of(toolpath), toolpath, width_um, gap_um, height_um, wire_um, len(toolpath))
 
 
-def under_sparks(work: Work, scenario: Scenario) -> ProcessRun | None:
-    """Work cut under the sparks of a scenario, None without. SettingsError for an event in no block that is cut."""
+def under_sparks(work: Work, scenario: Scenario, ended: Ending | None) -> ProcessRun | None:
+    """Work cut under the sparks of a scenario, None without; up to the block in which its table `ended` early.
+
+    SettingsError for an event in no block that is cut.
+    """
     if scenario.spark is None:
         return None
     _refuse_elsewhere(work, scenario)
-    return run_sparks(work, scenario.spark, scenario.events)
+    rows = work.rows if ended is None else ended.row + 1
+    return run_sparks(work._replace(rows=rows), scenario.spark, scenario.events)
 
 
 def panel_cut(run: DryRun, scenario: Scenario) -> Started:
     """The cut of a run at its start, for who drives it, by the sparks of a scenario; SettingsError as above."""
     steps = interpolate(run.toolpath)
-    reach_um = wire_rows(run.toolpath, scenario, run.passes).reach_um
-    work = work_of(run.toolpath, steps, scenario, run.pass_figures, reach_um)
+    work = work_of(steps, run.toolpath, scenario, run.pass_figures, wire_rows(run.toolpath, scenario, run.passes))
     _refuse_elsewhere(work, scenario)
     return started(work, scenario.spark or Spark(), scenario.events)
 

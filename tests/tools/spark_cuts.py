@@ -18,7 +18,7 @@ def work_of(text: str, height_um: float = HEIGHT_UM, width_um: float = WIDTH_UM)
     toolpath = parse_program(text).toolpath
     n = len(toolpath)
     steps = interpolate(toolpath)
-    return Work(steps, words_of(toolpath), toolpath, np.full(n, width_um), np.full(n, 10.0), height_um, WIRE_UM)
+    return Work(steps, words_of(toolpath), toolpath, np.full(n, width_um), np.full(n, 10.0), height_um, WIRE_UM, n)
 
 
 def straight(length_um: int, height_um: float = HEIGHT_UM) -> Work:

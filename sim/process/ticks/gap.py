@@ -89,23 +89,34 @@ def let_spark(job: Job, state: Floats, place: float) -> None:
         state[OPEN_US] = TICK_US
         state[BUSY_US] = 0.0
         return
+    spark_until(job, state, TICK_US)
+
+
+@loop_part("void(Job, f8[::1], f8)", Job)
+def spark_until(job: Job, state: Floats, end_us: float) -> None:
+    """Sparks one by one up to the end of a tick, from where the pause of the last one ends."""
     discharge = job.discharge
+    cycle_us = discharge.on_us + discharge.off_us
     face_um2 = job.way.width_um[int(state[FAR_ROW])] * discharge.height_um
-    at_us = state[BUSY_US]
-    while at_us < TICK_US:
-        delay = -mean_delay_us(state[GAP_UM]) * math.log(random_share(state))
-        if at_us + delay >= TICK_US:
-            state[OPEN_US] += TICK_US - at_us
-            state[BUSY_US] = 0.0
-            return
-        state[OPEN_US] += delay
-        state[ON_US] += discharge.on_us
-        state[TICK_SPARKS] += 1.0
-        at_us += delay + discharge.on_us + discharge.off_us
-        if face_um2 > 0.0:
-            crater = max(discharge.crater_um3 + discharge.spread_um3 * random_normal(state), 0.0)
-            state[REMOVED_UM3] += crater
-            deeper = crater / face_um2
-            state[FRONT_UM] += deeper
-            state[GAP_UM] = min(state[GAP_UM] + deeper, FAR_UM)
-    state[BUSY_US] = at_us - TICK_US
+    deeper = 1.0 / face_um2 if face_um2 > 0.0 else 0.0
+    at_us, gap, open_us, sparks, removed = state[BUSY_US], state[GAP_UM], 0.0, 0.0, 0.0
+    while at_us < end_us:
+        delay = -mean_delay_us(gap) * math.log(random_share(state))
+        if at_us + delay >= end_us:
+            open_us += end_us - at_us
+            at_us = end_us
+        else:
+            open_us += delay
+            sparks += 1.0
+            at_us += delay + cycle_us
+            if deeper > 0.0:
+                crater = max(discharge.crater_um3 + discharge.spread_um3 * random_normal(state), 0.0)
+                removed += crater
+                gap = min(gap + crater * deeper, FAR_UM)
+    state[BUSY_US] = at_us - end_us
+    state[OPEN_US] = open_us
+    state[ON_US] = sparks * discharge.on_us
+    state[TICK_SPARKS] = sparks
+    state[REMOVED_UM3] += removed
+    state[FRONT_UM] += removed * deeper
+    state[GAP_UM] = gap

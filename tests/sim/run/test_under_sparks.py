@@ -4,15 +4,21 @@ import json
 
 import numpy as np
 import pytest
+from places import SCENARIOS
 from report_schema import complaints
 from runs import codes, run_text, scenario_run
 
 from controller.stepping.counters import Counters, made_by
 from controller.stepping.steps import interpolate, words_of
 from parser.findings.errors import SettingsError
-from parser.program import parse_program
+from parser.program import moving, parse_program
+from sim.jobs.shop import program_read, source_of
 from sim.process.way import is_cut_again
+from sim.run.dryrun import DryRun
+from sim.run.recording import check_expectations
 from sim.run.report import build_report, report_text
+from sim.run.running import dry_run
+from sim.setup.scenario import load_scenario, under_sparks
 from sim.setup.spark import Event, Spark
 from sim.show.report_page.page import report_page
 from sim.show.terminal.run import summary_rows
@@ -21,6 +27,12 @@ OPENING = (
     "B0B1900B1900GYL4 B2900B0B2900GXL1 B0B3800B3800GYL2 B5800B0B5800GXL3 B0B3800B3800GYL4 B2900B0B2900GXL1"
     " B0B1900B1900GYL2 DD"
 )
+
+
+def run_folder_under_sparks(name: str) -> DryRun:
+    scenario = under_sparks(load_scenario(SCENARIOS / name))
+    program = moving(program_read(scenario, source_of(scenario)))
+    return check_expectations(dry_run(program, scenario))
 
 
 def test_without_sparks_nothing_but_a_null_is_new() -> None:
@@ -84,6 +96,22 @@ def test_what_is_skipped_and_what_the_wire_runs_into_is_told() -> None:
     assert codes(torn) == ["3B609"]
     assert "2.19 mm of uncut work" in dict(summary_rows(torn))["  collision"]
     assert complaints(json.loads(report_text(build_report(torn)))) == []
+
+
+def test_a_table_that_trips_cuts_no_block_behind_it() -> None:
+    run = run_folder_under_sparks("servo-trip")
+    assert run.ended is not None
+    assert run.process is not None
+    assert run.process.block_s[: run.ended.row].min() > 0.0
+    assert run.process.block_s[run.ended.row + 1 :].sum() == 0.0
+
+
+def test_trims_at_their_usual_feed_are_as_wide_as_ever() -> None:
+    """Trims take thin stock, and go as fast as the law lets them: that is their usual feed."""
+    run = run_folder_under_sparks("rough-and-trim")
+    assert run.process is not None
+    assert abs(run.process.wider_um).max() < 0.3
+    assert codes(run) == []
 
 
 def test_a_pause_widens_the_kerf_of_its_block_and_not_the_nominal_size() -> None:

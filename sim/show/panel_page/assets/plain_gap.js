@@ -93,27 +93,47 @@ export function let_spark(job, state, place) {
     state[BUSY_US] = 0.0;
     return;
   }
+  spark_until(job, state, TICK_US);
+}
+
+/**
+ * Sparks one by one up to the end of a tick, from where the pause of the last one ends.
+ * @param {Job} job
+ * @param {Float64Array} state
+ * @param {number} end_us
+ * @returns {void}
+ */
+export function spark_until(job, state, end_us) {
   const discharge = job.discharge;
+  const cycle_us = discharge.on_us + discharge.off_us;
   const face_um2 = job.way.width_um[Math.trunc(Number(state[FAR_ROW]))] * discharge.height_um;
+  const deeper = (face_um2 > 0.0) ? (1.0 / face_um2) : 0.0;
   let at_us = state[BUSY_US];
-  while (at_us < TICK_US) {
-    const delay = (-mean_delay_us(state[GAP_UM])) * Math.log(random_share(state));
-    if ((at_us + delay) >= TICK_US) {
-      state[OPEN_US] += TICK_US - at_us;
-      state[BUSY_US] = 0.0;
-      return;
-    }
-    state[OPEN_US] += delay;
-    state[ON_US] += discharge.on_us;
-    state[TICK_SPARKS] += 1.0;
-    at_us += (delay + discharge.on_us) + discharge.off_us;
-    if (face_um2 > 0.0) {
-      const crater = Math.max(discharge.crater_um3 + (discharge.spread_um3 * random_normal(state)), 0.0);
-      state[REMOVED_UM3] += crater;
-      const deeper = crater / face_um2;
-      state[FRONT_UM] += deeper;
-      state[GAP_UM] = Math.min(state[GAP_UM] + deeper, FAR_UM);
+  let gap = state[GAP_UM];
+  let open_us = 0.0;
+  let sparks = 0.0;
+  let removed = 0.0;
+  while (at_us < end_us) {
+    const delay = (-mean_delay_us(gap)) * Math.log(random_share(state));
+    if ((at_us + delay) >= end_us) {
+      open_us += end_us - at_us;
+      at_us = end_us;
+    } else {
+      open_us += delay;
+      sparks += 1.0;
+      at_us += delay + cycle_us;
+      if (deeper > 0.0) {
+        const crater = Math.max(discharge.crater_um3 + (discharge.spread_um3 * random_normal(state)), 0.0);
+        removed += crater;
+        gap = Math.min(gap + (crater * deeper), FAR_UM);
+      }
     }
   }
-  state[BUSY_US] = at_us - TICK_US;
+  state[BUSY_US] = at_us - end_us;
+  state[OPEN_US] = open_us;
+  state[ON_US] = sparks * discharge.on_us;
+  state[TICK_SPARKS] = sparks;
+  state[REMOVED_UM3] += removed;
+  state[FRONT_UM] += removed * deeper;
+  state[GAP_UM] = gap;
 }
