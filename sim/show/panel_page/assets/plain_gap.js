@@ -107,12 +107,11 @@ export function spark_until(job, state, end_us) {
   const discharge = job.discharge;
   const cycle_us = discharge.on_us + discharge.off_us;
   const face_um2 = job.way.width_um[Math.trunc(Number(state[FAR_ROW]))] * discharge.height_um;
-  const deeper = (face_um2 > 0.0) ? (1.0 / face_um2) : 0.0;
+  const deeper = (face_um2 > 0.0) ? (discharge.crater_um3 / face_um2) : 0.0;
   let at_us = state[BUSY_US];
   let gap = state[GAP_UM];
   let open_us = 0.0;
   let sparks = 0.0;
-  let removed = 0.0;
   while (at_us < end_us) {
     const delay = (-mean_delay_us(gap)) * Math.log(random_share(state));
     if ((at_us + delay) >= end_us) {
@@ -122,18 +121,31 @@ export function spark_until(job, state, end_us) {
       open_us += delay;
       sparks += 1.0;
       at_us += delay + cycle_us;
-      if (deeper > 0.0) {
-        const crater = Math.max(discharge.crater_um3 + (discharge.spread_um3 * random_normal(state)), 0.0);
-        removed += crater;
-        gap = Math.min(gap + (crater * deeper), FAR_UM);
-      }
+      gap = Math.min(gap + deeper, FAR_UM);
     }
   }
   state[BUSY_US] = at_us - end_us;
   state[OPEN_US] = open_us;
   state[ON_US] = sparks * discharge.on_us;
   state[TICK_SPARKS] = sparks;
+  if ((sparks > 0.0) && (face_um2 > 0.0)) {
+    take_craters(job, state, sparks, face_um2);
+  }
+}
+
+/**
+ * Take the craters of a tick off the front: their number is that of its sparks, their volume by chance.
+ * @param {Job} job
+ * @param {Float64Array} state
+ * @param {number} sparks
+ * @param {number} face_um2
+ * @returns {void}
+ */
+export function take_craters(job, state, sparks, face_um2) {
+  const discharge = job.discharge;
+  const spread = (discharge.spread_um3 * Math.sqrt(sparks)) * random_normal(state);
+  const removed = Math.max((discharge.crater_um3 * sparks) + spread, 0.0);
   state[REMOVED_UM3] += removed;
-  state[FRONT_UM] += removed * deeper;
-  state[GAP_UM] = gap;
+  state[FRONT_UM] += removed / face_um2;
+  state[GAP_UM] = Math.min(state[GAP_UM] + (removed / face_um2), FAR_UM);
 }
