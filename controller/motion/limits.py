@@ -276,14 +276,20 @@ def path_limits(path: Path, feed_um_s: Floats, rests: Ints, limits: MotionLimits
     whole = _longest_accelerations(path, limits)
     speed = _speed_caps(path, feed_um_s, whole, limits)
     border = np.full(len(path) + 1, limits.start_speed_um_s)
-    wait = np.zeros(len(path) + 1)
+    wait = corner_waits_s(path, limits)
     passed = junction_speeds(path, limits.junction, limits.corner_angle_rad, whole)
     border[1:-1] = np.maximum(passed, limits.start_speed_um_s)
-    if limits.corner_wait_s > 0.0:
-        corners = np.flatnonzero(turns(path) > limits.corner_angle_rad) + 1
-        border[corners], wait[corners] = limits.start_speed_um_s, limits.corner_wait_s
+    border[wait > 0.0] = limits.start_speed_um_s
     border[rests] = limits.start_speed_um_s
     return RowLimits(path.length_um, speed, _left_along(whole, speed**2 * path.curvature), border, wait)
+
+
+def corner_waits_s(path: Path, limits: MotionLimits) -> Floats:
+    """How long n rows are waited for at their borders (n + 1,) s: at corners, where there is a wait at all."""
+    wait = np.zeros(len(path) + 1)
+    if limits.corner_wait_s > 0.0:
+        wait[np.flatnonzero(turns(path) > limits.corner_angle_rad) + 1] = limits.corner_wait_s
+    return wait
 
 
 def run_starts(toolpath: Toolpath) -> Ints:

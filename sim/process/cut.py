@@ -1,7 +1,7 @@
 """A program cut under sparks, from its steps to what came of it: its times, its figures, what happened."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from itertools import islice
 from typing import Final, NamedTuple
 
@@ -17,7 +17,7 @@ from sim.process.spread import TimeWithin, time_within
 from sim.process.ticks import state as ticks
 from sim.process.ticks.state import Bounds, Discharge, Job, Records, Servo, Walls
 from sim.process.ticks.tick import run_ticks
-from sim.process.walls import Mark, marks_of, usual_gap_um, walls_of, widened
+from sim.process.walls import Mark, Widened, corner_marks, marks_of, usual_gap_um, walls_of, widened
 from sim.process.way import CutRows, Work, cut_rows, rest_reversed, slot_of, standing
 from sim.setup.spark import Event, Spark
 
@@ -314,11 +314,16 @@ def _result(cut: Started, came_to: int) -> ProcessRun:
         stopped=None if is_through else _moment(work, rows, time_s, float(state[ticks.AT]), _STOPS[came_to]),
         block_s=block_s,
         wider_um=wider_um,
-        marks=tuple(islice(marks_of(work, rows, log, cut.walls, wider), _MOST_MARKS)),
+        marks=tuple(islice(_marks(cut, log, wider), _MOST_MARKS)),
         displaced_um=displaced_um(work, moments),
         collided_um=collided_um(work, rows, state) if came_to == ticks.COLLIDED else None,
         history=records.history.reshape(-1, 4)[: int(state[ticks.HISTORY_ROWS])],
     )
+
+
+def _marks(cut: Started, log: Sequence[Sequence[float]], wider: Widened) -> Iterator[Mark]:
+    yield from marks_of(cut.work, cut.rows, log, cut.walls, wider)
+    yield from corner_marks(cut.work, cut.rows, cut.walls, wider)
 
 
 def displaced_um(work: Work, moments: Sequence[Moment]) -> Point | None:

@@ -78,6 +78,22 @@ def widened(walls: Walls, way: Way, records: Records) -> Widened:
     return Widened(wider, np.divide(sums, counts, out=np.zeros(n), where=counts > 0))
 
 
+def corner_marks(work: Work, rows: CutRows, walls: Walls, wider: Widened) -> Iterator[Mark]:
+    """Marks at corners where the control stands under sparks: a corner is washed out."""
+    for index in np.flatnonzero(rows.way.wait_s[:-1] > 0.0).tolist():
+        depth_um = _depth_um(float(rows.way.along_um[index + 1]), index, walls, wider)
+        if depth_um >= _LEAST_MARK_UM:
+            found = standing(work, rows, float(rows.way.before[index + 1]))
+            yield Mark(found.counters.row, found.place_um, depth_um, _WITHIN * depth_um)
+
+
+def _depth_um(along_um: float, index: int, walls: Walls, wider: Widened) -> float:
+    """By how much the widest place near one is wider than the mean of its row, µm."""
+    middle, near = int(along_um / walls.stretch_um), int(_NEAR_MARK_UM / walls.stretch_um)
+    widest = wider.at_um[max(middle - near, 0) : middle + near + 1].max(initial=0.0)
+    return float(widest - wider.by_row_um[index])
+
+
 def usual_feed_um_s(spark: Spark, width_um: float, height_um: float) -> float:
     """Feed at the usual gap, no faster than the law goes; of what cuts nothing none."""
     if width_um <= 0.0:
@@ -103,9 +119,7 @@ def marks_of(work: Work, rows: CutRows, log: Sequence[Sequence[float]], walls: W
             past_um = along_um + _NEAR_MARK_UM
             yield Mark(found.counters.row, found.place_um, *BREAK_MARK_UM)
             continue
-        middle, near = int(along_um / walls.stretch_um), int(_NEAR_MARK_UM / walls.stretch_um)
-        widest = wider.at_um[max(middle - near, 0) : middle + near + 1].max(initial=0.0)
-        depth_um = float(widest - wider.by_row_um[index])
+        depth_um = _depth_um(along_um, index, walls, wider)
         if depth_um >= _LEAST_MARK_UM:
             past_um = along_um + 2.0 * _NEAR_MARK_UM
             yield Mark(found.counters.row, found.place_um, depth_um, _WITHIN * depth_um)

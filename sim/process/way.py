@@ -27,6 +27,8 @@ class Work(NamedTuple):
         (n,) width of what each block cuts, 0 where it cuts nothing.
     gap_um
         (n,) gap at the walls of each block, at the usual feed.
+    wait_s
+        (n,) how long the control stands at the end of each block, under sparks.
     height_um, wire_um
         Height of the work and diameter of the wire.
     rows
@@ -38,6 +40,7 @@ class Work(NamedTuple):
     toolpath: Toolpath
     width_um: Floats
     gap_um: Floats
+    wait_s: Floats
     height_um: float
     wire_um: float
     rows: int
@@ -70,7 +73,8 @@ def cut_rows(work: Work) -> CutRows:
     is_threaded = np.diff(jumps_before, prepend=-1) > 0
     thread = np.maximum.accumulate(np.where(is_threaded, along[:-1], 0.0))
     before = np.concatenate([[0], np.cumsum(count[row])]).astype(np.float64)
-    return CutRows(row, Way(before, along, work.width_um[row].astype(np.float64), thread))
+    columns = (work.width_um[row].astype(np.float64), thread, work.wait_s[row].astype(np.float64))
+    return CutRows(row, Way(before, along, *columns))
 
 
 def along_at(rows: CutRows, at: float) -> tuple[int, float]:
@@ -99,7 +103,8 @@ def rest_reversed(rows: CutRows, at: float) -> CutRows:
     along = way.along_um[-1] - np.concatenate([way.along_um[:index:-1], [here_um]])
     row = rows.row[index:][::-1].copy()
     width = way.width_um[index:][::-1].copy()
-    return CutRows(row, Way(before, along, width, np.zeros(len(row))), is_back=True)
+    wait = np.concatenate([way.wait_s[index:-1][::-1], [0.0]])  # at the borders that they were at
+    return CutRows(row, Way(before, along, width, np.zeros(len(row)), wait), is_back=True)
 
 
 class Slot(NamedTuple):

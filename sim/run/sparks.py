@@ -5,6 +5,7 @@ from typing import Final
 
 import numpy as np
 
+from controller.motion.limits import corner_waits_s, path_of
 from controller.stepping.steps import Steps, interpolate, words_of
 from parser.dialect.reader import at_block
 from parser.findings.errors import SettingsError
@@ -40,7 +41,8 @@ def work_of(
     width_um[is_cut_again(toolpath)] = 0.0
     gap_um = wire.reach_um - scenario.wire.radius_um
     height_um, wire_um = from_mm(scenario.thickness_mm), scenario.wire.diameter_um
-    return Work(steps, words_of(toolpath), toolpath, width_um, gap_um, height_um, wire_um, len(toolpath))
+    waits_s = corner_waits_s(path_of(toolpath), scenario.machine.controller.limits)[1:]
+    return Work(steps, words_of(toolpath), toolpath, width_um, gap_um, waits_s, height_um, wire_um, len(toolpath))
 
 
 def under_sparks(work: Work, scenario: Scenario, ended: Ending | None) -> ProcessRun | None:

@@ -116,7 +116,8 @@ FLOOR_UM = 60
 AT_ORIGIN = 61
 STOOD_TICKS = 62
 NEXT_BY_CUT = 63
-STATE_SIZE = 64
+CORNER_UNTIL = 64
+STATE_SIZE = 65
 
 
 class Way(NamedTuple):
@@ -132,12 +133,15 @@ class Way(NamedTuple):
         (n,) width of what each block cuts, µm; 0 where it cuts nothing.
     thread_um
         (n,) µm of path before the place where the wire was threaded last.
+    wait_s
+        (n,) how long the control stands at the end of each, under sparks.
     """
 
     before: Floats
     along_um: Floats
     width_um: Floats
     thread_um: Floats
+    wait_s: Floats
 
 
 class Discharge(NamedTuple):

@@ -1,5 +1,7 @@
 """A tick of 1 ms: what happens, sparks, and what the control makes of them."""
 
+import math
+
 from controller.compiled.loops import compiled, loop_part
 from parser.geometry.curves import Floats
 from sim.process.ticks.events import let_happen, stand, tear_wire
@@ -13,6 +15,7 @@ from sim.process.ticks.state import (
     BREAKS_HERE,
     BROKEN,
     COLLIDED,
+    CORNER_UNTIL,
     FARTHEST,
     FINISHED,
     HAND_UM,
@@ -52,6 +55,9 @@ def way_of_tick(job: Job, state: Floats) -> float:
         state[LOST_TICKS] += 1.0
         state[PROGRESS_TICK] = state[TICKS]
         return 0.0
+    if state[TICKS] < state[CORNER_UNTIL]:
+        state[PROGRESS_TICK] = state[TICKS]
+        return 0.0
     return way_of_law(job, state)
 
 
@@ -63,6 +69,14 @@ def waits_for(state: Floats) -> int:
     if state[WIRE_OUT] > 0.0:
         return BREAKS_AGAIN if state[BREAKS_HERE] >= _MOST_BREAKS_HERE else BROKEN
     return POWERLESS if state[POWER_OUT] > 0.0 else RUNNING
+
+
+@loop_part("void(Job, f8[::1], i8)", Job)
+def end_block(job: Job, state: Floats, row: int) -> None:
+    """Stand at the end of a block: under sparks at a corner, without in single block."""
+    state[CORNER_UNTIL] = state[TICKS] + math.floor(job.way.wait_s[row] / TICK_S + 0.5)
+    if state[SINGLE_S] > 0.0:
+        stand(state, state[SINGLE_S])
 
 
 @loop_part("i8(Job, f8[::1], b1)", Job)
@@ -96,8 +110,8 @@ def tick(job: Job, state: Floats) -> int:
     row = state[ROW]
     is_in_vain = move(job, state, way_of_tick(job, state))
     state[TICKS] += 1.0
-    if state[SINGLE_S] > 0.0 and state[ROW] > row and state[AT] == state[FARTHEST]:
-        stand(state, state[SINGLE_S])
+    if state[ROW] > row and state[AT] == state[FARTHEST]:
+        end_block(job, state, int(row))
     return alarm(job, state, is_in_vain)
 
 

@@ -10,6 +10,7 @@ class PanelWayEntry(TypedDict):
     along_um: list[float]
     width_um: list[float]
     thread_um: list[float]
+    wait_s: list[float]
 
 
 class PanelWordsEntry(TypedDict):

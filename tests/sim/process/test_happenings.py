@@ -108,6 +108,21 @@ def test_a_pause_under_sparks_marks_the_wall_and_a_longer_one_more() -> None:
     assert 2.0 < depths[0] < depths[1] < 20.0  # what is said of such marks: 5 to 20 µm
 
 
+def test_a_wait_at_corners_washes_them_out() -> None:
+    """The time of five waits, and a mark at each corner, deeper for longer ones."""
+    plain = run_sparks(work_of(OPENING), QUICK)
+    depths = []
+    for wait_s in (4.0, 12.0):
+        run = run_sparks(work_of(OPENING, wait_s=wait_s), QUICK)
+        # The front recedes by up to 50 µm in a wait, 38 µm more than at the usual gap: so much is made up behind it.
+        assert plain.time_s + 5 * (wait_s - 38.0 / 30.0) < run.time_s < plain.time_s + 5 * wait_s
+        assert run.lost_s == 0.0
+        corners = {(0.0, -1900.0), (2900.0, -1900.0), (2900.0, 1900.0), (-2900.0, 1900.0), (-2900.0, -1900.0)}
+        assert {tuple(mark.place_um) for mark in run.marks} == corners
+        depths.append(np.mean([mark.depth_um for mark in run.marks]))
+    assert 0.5 < depths[0] < depths[1] < 15.0
+
+
 def test_the_knob_turned_settles_elsewhere() -> None:
     low = run_sparks(straight(8_000), QUICK, [Event("set", 1, share=0.01, set_value=0.2)])
     assert low.mean.voltage_share == pytest.approx(0.2, abs=0.01)

@@ -41,6 +41,7 @@ import { element } from "../../html/assets/elements.js";
  * @property {number[]} along_um
  * @property {number[]} width_um
  * @property {number[]} thread_um
+ * @property {number[]} wait_s
  */
 
 /**

@@ -34,7 +34,7 @@ export function jobOf(panel) {
   return {
     way: {
       before: Float64Array.from(way.before), along_um: Float64Array.from(way.along_um),
-      width_um: Float64Array.from(way.width_um), thread_um: Float64Array.from(way.thread_um),
+      width_um: Float64Array.from(way.width_um), thread_um: Float64Array.from(way.thread_um), wait_s: Float64Array.from(way.wait_s),
     },
     discharge: { ...panel.discharge },
     servo: { ...panel.servo },

@@ -188,7 +188,9 @@ export const STOOD_TICKS = 62;
 
 export const NEXT_BY_CUT = 63;
 
-export const STATE_SIZE = 64;
+export const CORNER_UNTIL = 64;
+
+export const STATE_SIZE = 65;
 
 /**
  * The stepped path, n blocks.
@@ -197,6 +199,7 @@ export const STATE_SIZE = 64;
  * @property {Float64Array} along_um
  * @property {Float64Array} width_um
  * @property {Float64Array} thread_um
+ * @property {Float64Array} wait_s
  */
 
 /**
@@ -204,10 +207,11 @@ export const STATE_SIZE = 64;
  * @param {Float64Array} along_um
  * @param {Float64Array} width_um
  * @param {Float64Array} thread_um
+ * @param {Float64Array} wait_s
  * @returns {Way}
  */
-export function Way(before, along_um, width_um, thread_um) {
-  return { before, along_um, width_um, thread_um };
+export function Way(before, along_um, width_um, thread_um, wait_s) {
+  return { before, along_um, width_um, thread_um, wait_s };
 }
 
 /**

@@ -3,7 +3,7 @@ import { let_happen, stand, tear_wire } from "./plain_events.js";
 import { let_spark, look, place_um } from "./plain_gap.js";
 import { note, record } from "./plain_log.js";
 import { move, way_of_law } from "./plain_servo.js";
-import { AT, AT_ORIGIN, BREAKS_AGAIN, BREAKS_HERE, BROKEN, COLLIDED, FARTHEST, FINISHED, HAND_UM, HOLD_UNTIL, IN_VAIN, IS_BY_HAND, LOST_TICKS, POWER_OUT, POWERLESS, PROGRESS_TICK, REMOVED_UM3, ROW, RUNNING, SHORT_TICKS, SHORTED, SINGLE_S, STALLED, STOPPED, TICK_S, TICKS, WIRE_OUT } from "./plain_state.js";
+import { AT, AT_ORIGIN, BREAKS_AGAIN, BREAKS_HERE, BROKEN, COLLIDED, CORNER_UNTIL, FARTHEST, FINISHED, HAND_UM, HOLD_UNTIL, IN_VAIN, IS_BY_HAND, LOST_TICKS, POWER_OUT, POWERLESS, PROGRESS_TICK, REMOVED_UM3, ROW, RUNNING, SHORT_TICKS, SHORTED, SINGLE_S, STALLED, STOPPED, TICK_S, TICKS, WIRE_OUT } from "./plain_state.js";
 import { breaks, watch_short } from "./plain_watch.js";
 /** @import { Job } from "./plain_state.js" */
 
@@ -27,6 +27,10 @@ export function way_of_tick(job, state) {
     state[PROGRESS_TICK] = state[TICKS];
     return 0.0;
   }
+  if (state[TICKS] < state[CORNER_UNTIL]) {
+    state[PROGRESS_TICK] = state[TICKS];
+    return 0.0;
+  }
   return way_of_law(job, state);
 }
 
@@ -43,6 +47,20 @@ export function waits_for(state) {
     return (state[BREAKS_HERE] >= _MOST_BREAKS_HERE) ? BREAKS_AGAIN : BROKEN;
   }
   return (state[POWER_OUT] > 0.0) ? POWERLESS : RUNNING;
+}
+
+/**
+ * Stand at the end of a block: under sparks at a corner, without in single block.
+ * @param {Job} job
+ * @param {Float64Array} state
+ * @param {number} row
+ * @returns {void}
+ */
+export function end_block(job, state, row) {
+  state[CORNER_UNTIL] = state[TICKS] + Math.floor((job.way.wait_s[row] / TICK_S) + 0.5);
+  if (state[SINGLE_S] > 0.0) {
+    stand(state, state[SINGLE_S]);
+  }
 }
 
 /**
@@ -90,8 +108,8 @@ export function tick(job, state) {
   const row = state[ROW];
   const is_in_vain = move(job, state, way_of_tick(job, state));
   state[TICKS] += 1.0;
-  if ((state[SINGLE_S] > 0.0) && (state[ROW] > row) && (state[AT] === state[FARTHEST])) {
-    stand(state, state[SINGLE_S]);
+  if ((state[ROW] > row) && (state[AT] === state[FARTHEST])) {
+    end_block(job, state, Math.trunc(Number(row)));
   }
   return alarm(job, state, is_in_vain);
 }
