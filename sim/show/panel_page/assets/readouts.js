@@ -2,7 +2,7 @@
 import { element } from "../../html/assets/elements.js";
 import * as language from "../../html/assets/language.js";
 import {
-  AREA_RATE, AT, BREAKS, CHIP_UNTIL, DRUMLESS_UNTIL, FARTHEST, GAP_UM, LOST_TICKS, PUMPLESS_UNTIL, RETREATED_UM, ROW, SHORTS,
+  AREA_RATE, AT, BREAKS, CHIP_UNTIL, DRUMLESS_UNTIL, FARTHEST, GAP_UM, LOST_TICKS, PUMPLESS_UNTIL, RETREATED_UM, ROW, RUNNING, SHORTS,
   SHORT_US, SPARKLESS_UNTIL, TICKS, TICK_S, TICK_SPARKS, WIRE_OUT, POWER_OUT,
 } from "./plain_state.js";
 
@@ -61,8 +61,9 @@ export function newReadouts(panel) {
       write("done", `${((100 * state[AT]) / total).toFixed(1)} %`);
       write("time", clock(state[TICKS] * TICK_S));
       write("left", feed_um_s > 0.5 ? clock(left_um / feed_um_s) : "–");
-      write("feed", ((feed_um_s * 60) / 1000).toFixed(2));
-      write("rate", state[AREA_RATE].toFixed(0));
+      const isRunning = cut.status === RUNNING;
+      write("feed", isRunning ? ((feed_um_s * 60) / 1000).toFixed(2) : "0");
+      write("rate", isRunning ? state[AREA_RATE].toFixed(0) : "0");
       write("voltage", (voltage * panel.open_v).toFixed(0));
       write("gap", state[GAP_UM] >= 50 ? "≥ 50" : state[GAP_UM].toFixed(1).replace("-", "−"));
       write("shorts", String(state[SHORTS]));
@@ -70,7 +71,7 @@ export function newReadouts(panel) {
       write("back", mm(state[RETREATED_UM]));
       write("lost", clock(state[LOST_TICKS] * TICK_S));
       write("speed", `× ${speed < 10 ? speed.toFixed(1) : Math.round(speed)}`);
-      lamp("sparks", state[TICK_SPARKS] > 0);
+      lamp("sparks", isRunning && state[TICK_SPARKS] > 0);
       lamp("short", state[SHORT_US] > 0);
       lamp("chip", state[CHIP_UNTIL] > state[TICKS]);
       lamp("wire", state[WIRE_OUT] > 0);
