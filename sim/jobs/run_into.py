@@ -28,7 +28,7 @@ from sim.run.recording import Recording, recording_of, reported, stages_of
 from sim.run.report import build_report, report_text
 from sim.run.report.model import ReportDocument
 from sim.run.running import dry_run
-from sim.run.sparks import panel_cut
+from sim.run.sparks import has_panel, panel_cut
 from sim.setup.scenario import Scenario
 from sim.show.draw.sheet import pixels
 from sim.show.drill_page import answers_page, drill_page
@@ -112,7 +112,7 @@ def write_files(  # noqa: PLR0913 - what was run, where to, and in which languag
     progress("pages", 2, 3)
     page = report_page(run, report, pictures, recording.pieces, has_trace=has_trace)
     (folder / "report.html").write_text(page, encoding="utf-8")
-    if run.process is not None:
+    if run.process is not None and has_panel(run):
         (folder / PANEL).write_text(panel_page(run.scenario, panel_cut(run, run.scenario)), encoding="utf-8")
 
 

@@ -22,6 +22,8 @@ from sim.run.dryrun import DryRun, Ending
 from sim.setup.scenario import Scenario
 from sim.setup.spark import Spark
 
+MOST_PANEL_BLOCKS: Final = 20_000
+"""Of a cut that a page drives: of more it would grow past 10 MB."""
 _CLOSED_UM: Final = 50.0
 _SPARKS: Final = "check-sparks"
 
@@ -57,11 +59,18 @@ def under_sparks(work: Work, scenario: Scenario, ended: Ending | None) -> Proces
     return run_sparks(work._replace(rows=rows), scenario.spark, scenario.events)
 
 
+def has_panel(run: DryRun) -> bool:
+    """Whether somebody can drive its cut: there is something to cut, in no more blocks than a page holds."""
+    return bool((~run.toolpath.is_jump & (run.stepped.count > 0)).any()) and len(run.toolpath) <= MOST_PANEL_BLOCKS
+
+
 def panel_cut(run: DryRun, scenario: Scenario) -> Started:
     """The cut of a run at its start, for who drives it, by the sparks of a scenario; SettingsError as above."""
     steps = interpolate(run.toolpath)
     work = work_of(steps, run.toolpath, scenario, run.pass_figures, wire_rows(run.toolpath, scenario, run.passes))
     _refuse_elsewhere(work, scenario)
+    if not has_panel(run):
+        raise SettingsError("no-panel", name=run.program.name, blocks=len(run.toolpath), most=MOST_PANEL_BLOCKS)
     return started(work, scenario.spark or Spark(), scenario.events)
 
 

@@ -59,6 +59,7 @@ from sim.process.ticks.state import (
 )
 
 _SAME_PLACE_UM = 1000.0
+"""Breaks within it are in one place (assumed)."""
 
 
 @loop_part("void(f8[::1], f8)")

@@ -42,7 +42,9 @@ from sim.process.ticks.state import (
 from sim.process.ticks.watch import breaks, watch_short
 
 _STALL_TICKS = 600000.0
+"""Without way, after which the control stops: ten minutes (assumed)."""
 _MOST_BREAKS_HERE = 5.0
+"""Breaks in one place, after which somebody has to look for their cause (assumed)."""
 
 
 @loop_part("f8(Job, f8[::1])", Job)

@@ -29,9 +29,13 @@ from sim.process.ticks.state import (
 )
 
 _SHORT_TICKS = 10
+"""Of a short that counts (assumed): in a narrow gap the wire touches for a tick or two."""
 _AREA_SMOOTH = 0.002
+"""Share of a tick in the mean of the area rate: half a second, as wires break by what lasts (assumed)."""
 _UNCOOLED_MOST = 1000.0
+"""Ticks with sparks that a wire without water stands (assumed)."""
 _STANDING_MOST = 500.0
+"""The same of a wire that stands still (assumed)."""
 
 
 @loop_part("void(Job, f8[::1])", Job)

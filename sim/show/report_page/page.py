@@ -22,6 +22,7 @@ from sim.run.dryrun import DryRun
 from sim.run.findings import outcome
 from sim.run.recording import NO_PIECES
 from sim.run.report.model import ReportDocument
+from sim.run.sparks import has_panel
 from sim.setup.dialect import OWN_SUFFIX
 from sim.setup.expectations import EXPECT, Expectation, wanted
 from sim.setup.key_words import title_of, value_word, words_of
@@ -250,6 +251,7 @@ def report_page(
         tables_data=[table.data() for table in tables],
         groups=setting_groups(run.scenario, run.program),
         has_trace=has_trace,
+        has_panel=run.process is not None and has_panel(run),
         machine=machine_name(run.scenario.machine),
         reproduction=reproduction(run),
         dark_pictures=_recoloured(DARK),

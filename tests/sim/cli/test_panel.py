@@ -49,3 +49,16 @@ def test_a_run_under_sparks_writes_its_panel_and_one_without_writes_none(tmp_pat
         assert (tmp_path / "out" / "panel.html").exists() == has_panel
         assert ("panel.html" in done.stdout.decode()) == has_panel
         assert ('href="panel.html"' in (tmp_path / "out" / "report.html").read_text("utf-8")) == has_panel
+
+
+def test_a_program_that_only_jumps_has_no_panel(tmp_path: Path) -> None:
+    (tmp_path / "jumps.iso").write_text("G90\nG00 X5. Y0.\nG00 X5. Y5.\nM02\n", "utf-8")
+    done = run_inside("run", "jumps.iso", "-o", "out", "--sparks", cwd=tmp_path)
+    assert done.returncode in {0, 1}
+    assert not (tmp_path / "out" / "panel.html").exists()
+    done = run_inside("panel", "jumps.iso", "-o", "panel.html", cwd=tmp_path)
+    assert done.returncode in {1, 2}
+    assert "does not only jump" in done.stderr.decode()
+    done = run_inside("drill", "jumps.iso", "--kind", "operation", "-o", "drills", cwd=tmp_path)
+    assert done.returncode in {1, 2}
+    assert not (tmp_path / "drills").exists()
