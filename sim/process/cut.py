@@ -102,7 +102,7 @@ class ProcessRun(NamedTuple):
     collided_um
         Way through uncut work on a return to the origin with the wire in; None without one.
     history
-        (m, 4): time in s, step, mean voltage and mean current as shares of the highest.
+        (m, 4): time in s, step of the program, mean voltage and mean current as shares of the highest.
     """
 
     spark: Spark
@@ -317,8 +317,19 @@ def _result(cut: Started, came_to: int) -> ProcessRun:
         marks=tuple(islice(_marks(cut, log, wider), _MOST_MARKS)),
         displaced_um=displaced_um(work, moments),
         collided_um=collided_um(work, rows, state) if came_to == ticks.COLLIDED else None,
-        history=records.history.reshape(-1, 4)[: int(state[ticks.HISTORY_ROWS])],
+        history=_history(cut),
     )
+
+
+def _history(cut: Started) -> Floats:
+    """What the loop recorded, its steps as the program counts them, from before its first one."""
+    rows, found = cut.rows, cut.job.records.history.reshape(-1, 4)[: int(cut.state[ticks.HISTORY_ROWS])].copy()
+    if len(found):
+        index = np.clip(np.searchsorted(rows.way.before, found[:, 1], side="right") - 1, 0, len(rows.row) - 1)
+        row, made = rows.row[index], found[:, 1] - rows.way.before[index]
+        steps = cut.work.steps
+        found[:, 1] = steps.before[row] + (steps.count[row] - made if rows.is_back else made)
+    return found
 
 
 def _marks(cut: Started, log: Sequence[Sequence[float]], wider: Widened) -> Iterator[Mark]:

@@ -1,11 +1,16 @@
-"""A cut under sparks in rows for people: on the terminal."""
+"""A cut under sparks in words for people: its rows on the terminal, and what happened in it."""
 
+from typing import get_args
+
+from parser.findings.catalogue import Bilingual
 from parser.text.source import BlockNames
 from parser.units import mm, mm_text
 from sim.base.units import in_figures
 from sim.process.cut import ProcessRun
 from sim.process.spread import LEVEL
-from sim.show.texts import Words
+from sim.setup.key_words import value_word
+from sim.setup.spark import EventKind
+from sim.show.texts import Words, bilingual
 from sim.show.texts.phrases import catalogued, lasting
 
 
@@ -76,3 +81,10 @@ def _stopped(process: ProcessRun, names: BlockNames, tell: Words) -> list[tuple[
         "why": catalogued(f"stop-{stopped.kind}"),
     }
     return [(tell("sparks.stopped"), tell("sparks.stopped-of", **where))]
+
+
+def event_words(kind: str) -> Bilingual:
+    """What happened, or why the control stopped: kinds of events by the words of settings."""
+    if kind in get_args(EventKind):
+        return value_word(kind)
+    return bilingual("sparks.cleared") if kind == "cleared" else catalogued(f"stop-{kind}")

@@ -27,6 +27,7 @@ from sim.show.lesson_page.model import LessonEntry
 from sim.show.operation_page.model import OperationEntry
 from sim.show.panel_page.model import PanelEntry
 from sim.show.replay.model import ReplayDocument
+from sim.show.replay.sparks import SparkTapeEntry
 from sim.show.report_page.tables import TableDataEntry
 from sim.teach.handins import HandInDocument
 
@@ -35,6 +36,7 @@ SHOW = ROOT / "sim" / "show"
 DOCUMENTS: dict[Path, Sequence[type]] = {
     SHOW / "html" / "assets" / "packed.js": [PackedEntry],
     SHOW / "replay" / "assets" / "document.js": [ReplayDocument],
+    SHOW / "replay" / "assets" / "sparks.js": [SparkTapeEntry],
     SHOW / "report_page" / "assets" / "data.js": [TableDataEntry],
     SHOW / "index_page" / "assets" / "data.js": [IndexEntry],
     SHOW / "drill_page" / "assets" / "data.js": [DrillsEntry],

@@ -66,6 +66,7 @@ from sim.show.replay.model import (
     StopEntry,
 )
 from sim.show.replay.quiz import quiz_of
+from sim.show.replay.sparks import spark_tape
 from sim.show.replay.tape import drawing_columns, exact_columns, tape
 from sim.show.texts.phrases import machine_name, named_pass
 from sim.table.follow import Setup
@@ -300,7 +301,8 @@ def replay_page(recording: Recording) -> str:
         "titles": scenario.titles,
         "tones": tones,
     }
-    return rendered(_ASSETS, "replay.html.j2", **values, keys=OF_PAGE, actions=actions_of(OF_PAGE))
+    sparks = spark_tape(recording.run)
+    return rendered(_ASSETS, "replay.html.j2", **values, sparks=sparks, keys=OF_PAGE, actions=actions_of(OF_PAGE))
 
 
 def _handed_over(document: ReplayDocument) -> dict[str, Any]:

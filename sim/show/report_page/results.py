@@ -1,6 +1,6 @@
 """Tables of what a run came to: blocks, contours, deviations, limits and losses of the drives, checks."""
 
-from typing import Any, Final, cast, get_args
+from typing import Any, Final, cast
 
 from parser.findings.catalogue import LANGUAGES, Bilingual
 from parser.shape.contours import Contour
@@ -9,7 +9,6 @@ from sim.run.dryrun import DryRun
 from sim.run.report.model import ReportDocument
 from sim.run.report.run_model import CauseEntry, PassEntry, SparkMomentEntry
 from sim.setup.key_words import value_word
-from sim.setup.spark import EventKind
 from sim.show.report_page.findings import address
 from sim.show.report_page.tables import (
     Column,
@@ -24,6 +23,7 @@ from sim.show.report_page.tables import (
     timed,
     worded,
 )
+from sim.show.spark_rows import event_words
 from sim.show.texts import bilingual
 from sim.show.texts.phrases import catalogued
 
@@ -252,10 +252,8 @@ def spark_tables(run: DryRun, report: ReportDocument) -> list[ReportTable]:
 
 def _events(happened: list[SparkMomentEntry]) -> Column:
     """What happened: kinds of events by the words of settings."""
-    kinds = dict.fromkeys(each["kind"] for each in happened)
-    return Column(
-        bilingual("report.event"), [each["kind"] for each in happened], "word", words=dict(map(_event, kinds))
-    )
+    kinds = [each["kind"] for each in happened]
+    return Column(bilingual("report.event"), kinds, "word", words={kind: event_words(kind) for kind in kinds})
 
 
 def _counters(happened: list[SparkMomentEntry]) -> tuple[Column, ...]:
@@ -264,12 +262,6 @@ def _counters(happened: list[SparkMomentEntry]) -> tuple[Column, ...]:
         counted("count-length-left", column_of(happened, "count_left_um")),
         counted("deviation-f", column_of(happened, "deviation")),
     )
-
-
-def _event(kind: str) -> tuple[str, Bilingual]:
-    if kind in get_args(EventKind):
-        return kind, value_word(kind)
-    return kind, bilingual("sparks.cleared") if kind == "cleared" else catalogued(f"stop-{kind}")
 
 
 def check_table(run: DryRun) -> ReportTable:
