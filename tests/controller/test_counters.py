@@ -18,7 +18,7 @@ def plain_blocks(text: str) -> list[Block]:
     return read_listing(text).blocks
 
 
-@settings(max_examples=examples(80))
+@settings(max_examples=examples(40))
 @given(programs, st.integers(0, 10**9))
 def test_counters_are_those_of_the_four_beats_at_each_step(program: list, seed: int) -> None:  # type: ignore[type-arg]
     """X, Y, F and J left of some steps of each block, by the plain stepper of lessons; and back from them."""

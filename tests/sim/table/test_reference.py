@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from depth import DEEP
 from table_runs import CENTRE, MODEL, draw, even_ticks, motion, moved, pulses_of
 
 from controller.motion.limits import Feeds
@@ -110,6 +111,10 @@ def test_random_tables_move_as_in_pymunk_the_finer_its_ticks_and_lose_the_same()
     assert nearer >= 10, "but for slides that coast without friction between their flanks"
 
 
+SHORT = "B12B4B12GXL1 B7B13B13GYL2 B6B0B24GYNR1 DD"
+LONG = "B37B11B37GXL1 B23B44B44GYL2 B20B0B80GYNR1 DD"
+
+
 @pytest.mark.alike(1)
 @pytest.mark.parametrize(
     ("name", "feed_um_s"),
@@ -121,7 +126,7 @@ def test_random_tables_move_as_in_pymunk_the_finer_its_ticks_and_lose_the_same()
     ],  # the quickest stepper first
 )
 def test_shipped_machines_move_as_in_pymunk(name: str, feed_um_s: float) -> None:
-    text, machine = "B37B11B37GXL1 B23B44B44GYL2 B20B0B80GYNR1 DD", load_machine(name)
+    text, machine = LONG if DEEP else SHORT, load_machine(name)
     runs = [
         motion(text, machine._replace(engine=engine), Feeds(feed_um_s, feed_um_s)) for engine in ("compiled", "pymunk")
     ]
