@@ -6,7 +6,7 @@ from typing import Any
 import click
 
 from parser.findings.errors import Message, ProgramError
-from sim.cli.scenario_options import overridden, overrides_of, refused, scenario_options, spark_options
+from sim.cli.scenario_options import overridden, overrides_of, refused, scenario_options, seed_option
 from sim.cli.spoken import Spoken, spoken, words
 from sim.cli.spoken.values import FilePath
 
@@ -15,7 +15,7 @@ from sim.cli.spoken.values import FilePath
 @click.argument("path", type=FilePath(path_type=Path), metavar="PROGRAM|SCENARIO")
 @click.option("-o", "--output", type=FilePath(path_type=Path, dir_okay=False), required=True, metavar="FILE.html")
 @scenario_options
-@spark_options
+@seed_option
 def panel(path: Path, output: Path, **options: Any) -> None:
     """Write the panel of a control under sparks, which cuts a program live: for a class that drives it itself.
 
@@ -28,15 +28,14 @@ def panel(path: Path, output: Path, **options: Any) -> None:
     from sim.jobs.shop import program_read, source_of
     from sim.run.running import dry_run
     from sim.run.sparks import panel_cut
-    from sim.setup.scenario import under_sparks, without_sparks
+    from sim.setup.scenario import without_sparks
     from sim.show.panel_page.page import length_mm, panel_page
     from sim.show.terminal.printer import say
     from sim.show.texts.phrases import lasting
 
     if output.suffix.lower() != ".html":
         raise click.BadParameter(Message("panel-is-html", file=output), param_hint="-o")
-    overrides = overrides_of(options)
-    scenario = under_sparks(overridden(path, overrides), overrides.seed)
+    scenario = overridden(path, overrides_of(options)._replace(sparks=True))
     try:
         program = moving(program_read(scenario, source_of(scenario)))
         started = panel_cut(dry_run(program, without_sparks(scenario), measured=False), scenario)

@@ -154,19 +154,11 @@ def _run_one(scenario: "Scenario", files: _Files, *, as_json: bool) -> int:
     else:
         print_summary(done, files.output, spoken())
         if files.output is not None:
-            from sim.jobs.run_into import FILES, PANEL
+            from sim.jobs.run_into import files_of
             from sim.jobs.trace_file import TRACE
-            from sim.run.sparks import has_panel
 
             made = [done.program.name] if scenario.to_make is not None and not scenario.program.exists() else []
-            names = ", ".join(
-                [
-                    *FILES,
-                    *([PANEL] if done.process and has_panel(done) else []),
-                    *([TRACE] if files.trace else []),
-                    *made,
-                ]
-            )
+            names = ", ".join([*files_of(done), *([TRACE] if files.trace else []), *made])
             say(words()("commands.written", names=f"{files.output}/ {names}"))
     return 0 if verdict(done.findings) == "pass" else 1
 

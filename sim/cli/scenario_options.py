@@ -32,6 +32,7 @@ from sim.setup.part import (
     OffsetPass,
 )
 from sim.setup.settable import INTERPOLATOR, SETTABLE
+from sim.setup.spark import SEED
 from sim.setup.toml.keys import Key
 from sim.setup.toml.reader import number
 from sim.show.terminal.finding import finding_lines
@@ -77,12 +78,10 @@ _OPTIONS = (
 )
 
 
-spark_options = with_options(
-    (
-        click.option("--sparks", is_flag=True),
-        click.option("--seed", type=WholeNumber(0, 2**31 - 1), metavar="N"),
-    )
-)
+_SEED = click.option("--seed", type=WholeNumber(int(SEED.low), int(SEED.high)), metavar="N")
+seed_option = with_options((_SEED,))
+"""Gives a command that cuts under sparks alone the seed of what is random, which is of `Overrides` too."""
+spark_options = with_options((click.option("--sparks", is_flag=True), _SEED))
 """Gives a command that runs a program the options of a cut under sparks, which are of `Overrides` too."""
 scenario_options = with_options(_OPTIONS)
 """Gives a command the options that take the place of a scenario's own values: those of `Overrides`."""

@@ -50,6 +50,11 @@ NAMES: Final = (*FILES, PANEL, TRACE)
 """What a run may write: of an earlier run none of these stays."""
 
 
+def files_of(run: DryRun) -> tuple[str, ...]:
+    """Names of what a run writes, its trace left out."""
+    return (*FILES, PANEL) if has_panel(run) else FILES
+
+
 def run_into(  # noqa: PLR0913 - what it is run with, and whom it tells
     folder: Path | str,
     program: Program,
@@ -112,7 +117,7 @@ def write_files(  # noqa: PLR0913 - what was run, where to, and in which languag
     progress("pages", 2, 3)
     page = report_page(run, report, pictures, recording.pieces, has_trace=has_trace)
     (folder / "report.html").write_text(page, encoding="utf-8")
-    if run.process is not None and has_panel(run):
+    if has_panel(run):
         (folder / PANEL).write_text(panel_page(run.scenario, panel_cut(run, run.scenario)), encoding="utf-8")
 
 

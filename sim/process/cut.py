@@ -11,13 +11,13 @@ from controller.stepping.counters import Counters
 from parser.geometry.curves import Floats
 from parser.toolpath import Point
 from parser.units import from_mm
-from sim.process.happenings import KINDS, happenings_of
-from sim.process.sparks import CRATERS, Steady, steady
+from sim.process.events import KINDS, events_of
+from sim.process.sparks import CRATERS, Steady
 from sim.process.spread import TimeWithin, time_within
 from sim.process.ticks import state as ticks
 from sim.process.ticks.state import Bounds, Discharge, Job, Records, Servo, Walls
 from sim.process.ticks.tick import run_ticks
-from sim.process.walls import Mark, Widened, corner_marks, marks_of, usual_gap_um, walls_of, widened
+from sim.process.walls import Mark, Widened, corner_marks, marks_of, usual_feeds_um_s, walls_of, widened
 from sim.process.way import CutRows, Work, cut_rows, rest_reversed, slot_of, standing
 from sim.setup.spark import Event, Spark
 
@@ -146,7 +146,7 @@ def started(work: Work, spark: Spark, events: Sequence[Event] = ()) -> Started:
     rows = cut_rows(work)
     job = job_of(work, rows, spark, events)
     walls = walls_of(work, rows, spark, float(job.records.stretch_um[0]))
-    return Started(work, rows, spark, job, state_of(spark), walls)
+    return Started(work, rows, spark, job, start_state(spark), walls)
 
 
 def run_sparks(work: Work, spark: Spark, events: Sequence[Event] = ()) -> ProcessRun:
@@ -174,16 +174,16 @@ def _run_on(cut: Started, came_to: int) -> int:
 def cut_from_end(cut: Started) -> Started:
     """The rest of a cut whose wire broke, from the end of its path back to where it broke.
 
-    The wire is threaded at the start, which has to be the end of the path too. Happenings by time go on; those at a
+    The wire is threaded at the start, which has to be the end of the path too. Events by time go on; those at a
     block have come, or lie on the way and come no more.
     """
     at = float(cut.state[ticks.AT])
     rows = rest_reversed(cut.rows, at)
     spark = cut.spark._replace(threading="start")
     job = job_of(cut.work, rows, spark, ())
-    by_step = int(cut.job.happenings.by_step[0])
-    timed = cut.job.happenings._replace(
-        **{name: getattr(cut.job.happenings, name)[by_step:] for name in ("kind", "for_s", "size", "at")},
+    by_step = int(cut.job.events.by_step[0])
+    timed = cut.job.events._replace(
+        **{name: getattr(cut.job.events, name)[by_step:] for name in ("kind", "for_s", "size", "at")},
         by_step=np.zeros(1),
     )
     state = cut.state.copy()
@@ -197,7 +197,7 @@ def cut_from_end(cut: Started) -> Started:
     state[[ticks.TICKS, ticks.STOOD_TICKS]] += threading_ticks
     state[ticks.LOST_TICKS], state[ticks.PROGRESS_TICK] = threading_ticks, state[ticks.TICKS]
     walls = walls_of(cut.work, rows, spark, float(job.records.stretch_um[0]))
-    return Started(cut.work, rows, spark, job._replace(happenings=timed), state, walls)
+    return Started(cut.work, rows, spark, job._replace(events=timed), state, walls)
 
 
 def _joined(first: ProcessRun, second: ProcessRun) -> ProcessRun:
@@ -254,7 +254,7 @@ def job_of(work: Work, rows: CutRows, spark: Spark, events: Sequence[Event]) -> 
             is_reversed=float(spark.threading == "reverse"),
             is_manned=0.0,
         ),
-        happenings=happenings_of(rows, spark, events, _drawn_for_s(rows, work, spark)),
+        events=events_of(rows, spark, events, _drawn_for_s(rows, work, spark)),
         records=Records(
             lit_s=np.zeros(int(length_um / stretch_um) + 1),
             stretch_um=np.array([stretch_um]),
@@ -265,7 +265,7 @@ def job_of(work: Work, rows: CutRows, spark: Spark, events: Sequence[Event]) -> 
     )
 
 
-def state_of(spark: Spark) -> Floats:
+def start_state(spark: Spark) -> Floats:
     """A cut that begins. Its generator has two seeds within its bounds; neighbouring seeds lead far apart."""
     state = np.zeros(ticks.STATE_SIZE)
     first, second = np.random.SeedSequence(spark.seed).generate_state(2).tolist()
@@ -281,12 +281,10 @@ def _drawn_for_s(rows: CutRows, work: Work, spark: Spark) -> float:
 
 
 def _usual_s(rows: CutRows, work: Work, spark: Spark) -> float:
-    """Time that the cut takes at the usual gap, s."""
-    gap_um, most_um_s = usual_gap_um(spark), spark.filled.most_um_s
-    widths = rows.way.width_um.tolist()
-    feeds = {each: steady(spark, gap_um, each, work.height_um).feed_um_s if each else most_um_s for each in set(widths)}
-    each_s = np.diff(rows.way.along_um) / np.array([min(feeds[width], most_um_s) for width in widths])
-    return float(each_s.sum())
+    """Time that the cut takes at the usual gap, s; where nothing is cut, the control goes as fast as it can."""
+    feed_um_s = usual_feeds_um_s(spark, rows.way.width_um, work.height_um)
+    feed_um_s[feed_um_s == 0.0] = spark.filled.most_um_s
+    return float((np.diff(rows.way.along_um) / feed_um_s).sum())
 
 
 def _result(cut: Started, came_to: int) -> ProcessRun:

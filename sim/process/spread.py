@@ -5,7 +5,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from sim.process.happenings import drawn_ticks, with_own_breaks
+from sim.process.events import drawn_ticks, with_own_breaks
 from sim.process.ticks.state import TICK_S
 from sim.setup.spark import Event, Spark
 

@@ -34,7 +34,7 @@ from sim.measure.kerf_fit import offset_findings, tolerance_findings
 from sim.measure.passes import PassFigures, figures_of_passes, wire_taken
 from sim.run.dryrun import DryRun, Ending, PulseSink, motion_to_end, trip_of
 from sim.run.prepare import Prepared, prepare
-from sim.run.sparks import state_of, stop_findings, under_sparks, work_of
+from sim.run.sparks import check_states, cut_under_sparks, stop_findings, work_of
 from sim.setup.part import DrawingTarget
 from sim.setup.scenario import Scenario
 from sim.table.losses import loss_findings
@@ -152,14 +152,8 @@ def run_along(
     """Let the table follow what is run, and tell all that came of it; the pulses go to `sink`, too."""
     ready, motion, ended, pulses, feeds, measured = along
     program, toolpath = ready.program, ready.program.toolpath
-    meters, table = Meters(motion, ready.steps), TableRun(motion, progress)
-    if sink is not None:
-        sink.open(motion.drive.origin_um)
-    for followed in table.followed(pulses):
-        meters.take(followed)
-        if sink is not None:
-            sink.take(followed)
-    moved = table.moved
+    meters = Meters(motion, ready.steps)
+    moved = _followed(motion, pulses, meters, sink, progress)
     passes = find_passes(toolpath) if ready.offset is None else ready.offset.edge_passes
     wire = wire_rows(toolpath, scenario, passes)
     trace = bowed(moved.trace, toolpath, wire.lag_um)
@@ -170,13 +164,16 @@ def run_along(
     border_s = plan.border_s(ready.steps.along_um)
     block_time_s = np.diff(np.minimum(border_s, ended.t_s if ended else plan.duration_s))
     figures = figures_of_passes(toolpath, passes, block_time_s, wire_taken(toolpath, plan, cut), wire.reach_um)
-    process = under_sparks(work_of(ready.steps, toolpath, scenario, figures, wire), scenario, ended)
+    process = cut_under_sparks(work_of(ready.steps, toolpath, scenario, figures, wire), scenario, ended)
     reach_um = wire.reach_um if process is None else wire.reach_um + process.wider_um
     is_whole = ended is None
     left = left_of(program, cut, contours, scenario, drawing, reach_um, progress, is_whole=is_whole, measured=measured)
-    fits = () if scenario.technology is None else tuple(_fits(ready, scenario, figures, wire, left.comparison))
-    stops = () if process is None else tuple(stop_findings(program, process))
-    states = [left.state] if process is None else [left.state, state_of(process)]
+    found = [
+        *_met(program, scenario, moved, trace, contours),
+        *left.findings,
+        *_fits(ready, scenario, figures, wire, left.comparison),
+        *stop_findings(program, process),
+    ]
     return DryRun(
         program=program,
         scenario=scenario,
@@ -198,10 +195,24 @@ def run_along(
         reach_um=reach_um,
         remains=left.remains,
         comparison=left.comparison,
-        findings=_in_order(ready, [*_met(program, scenario, moved, trace, contours), *left.findings, *fits, *stops]),
+        findings=_in_order(ready, found),
         checked=ready.findings,
-        coverage=ready.coverage._replace(checks=(*ready.coverage.checks, *states)),
+        coverage=ready.coverage._replace(checks=(*ready.coverage.checks, left.state, *check_states(process))),
     )
+
+
+def _followed(
+    motion: Motion, pulses: Iterator[Pulses], meters: Meters, sink: PulseSink | None, progress: Progress
+) -> Moved:
+    """How the table moved by pulses, which meters and sink take too."""
+    table = TableRun(motion, progress)
+    if sink is not None:
+        sink.open(motion.drive.origin_um)
+    for followed in table.followed(pulses):
+        meters.take(followed)
+        if sink is not None:
+            sink.take(followed)
+    return table.moved
 
 
 def _fits(
@@ -211,7 +222,9 @@ def _fits(
     wire: WireRows,
     comparison: Comparison | None,
 ) -> Iterator[Finding]:
-    """Findings on offsets, trims and a tolerance that do not fit the kerfs that the technology says."""
+    """Findings on offsets, trims and a tolerance that do not fit the kerfs that a technology says; none without one."""
+    if scenario.technology is None:
+        return
     program, passes = ready.program, () if scenario.offset is None else scenario.offset.passes
     without, of_header = any(telling(ready.findings, WithoutOffset)), program.header.get("offset_um")
     header_um = of_header if isinstance(of_header, float) and not without else None

@@ -47,7 +47,7 @@ def work_of(
     return Work(steps, words_of(toolpath), toolpath, width_um, gap_um, waits_s, height_um, wire_um, len(toolpath))
 
 
-def under_sparks(work: Work, scenario: Scenario, ended: Ending | None) -> ProcessRun | None:
+def cut_under_sparks(work: Work, scenario: Scenario, ended: Ending | None) -> ProcessRun | None:
     """Work cut under the sparks of a scenario, None without; up to the block in which its table `ended` early.
 
     SettingsError for an event in no block that is cut.
@@ -60,7 +60,12 @@ def under_sparks(work: Work, scenario: Scenario, ended: Ending | None) -> Proces
 
 
 def has_panel(run: DryRun) -> bool:
-    """Whether somebody can drive its cut: there is something to cut, in no more blocks than a page holds."""
+    """Whether a panel stands among the files of a run: it is under sparks, and somebody can drive its cut."""
+    return run.process is not None and _can_be_driven(run)
+
+
+def _can_be_driven(run: DryRun) -> bool:
+    """Whether there is something to cut, in no more blocks than a page holds."""
     return bool((~run.toolpath.is_jump & (run.stepped.count > 0)).any()) and len(run.toolpath) <= MOST_PANEL_BLOCKS
 
 
@@ -69,7 +74,7 @@ def panel_cut(run: DryRun, scenario: Scenario) -> Started:
     steps = interpolate(run.toolpath)
     work = work_of(steps, run.toolpath, scenario, run.pass_figures, wire_rows(run.toolpath, scenario, run.passes))
     _refuse_elsewhere(work, scenario)
-    if not has_panel(run):
+    if not _can_be_driven(run):
         raise SettingsError("no-panel", name=run.program.name, blocks=len(run.toolpath), most=MOST_PANEL_BLOCKS)
     return started(work, scenario.spark or Spark(), scenario.events)
 
@@ -85,14 +90,17 @@ def _refuse_elsewhere(work: Work, scenario: Scenario) -> None:
             raise SettingsError("event-block-not-cut", at=at, block=event.block, blocks=len(work.toolpath))
 
 
-def stop_findings(program: Program, process: ProcessRun) -> Iterator[Finding]:
-    """Finding 3B609 where the control stops before the program is through."""
-    stopped = process.stopped
+def stop_findings(program: Program, process: ProcessRun | None) -> Iterator[Finding]:
+    """Finding 3B609 where the control stops before the program is through; none without sparks."""
+    stopped = None if process is None else process.stopped
     if stopped is not None:
         why = f"stop-{stopped.kind}"
         yield at_block(program.toolpath, program.lines, "3B609", stopped.row, time_s=stopped.t_s, why=why)
 
 
-def state_of(process: ProcessRun) -> CheckState:
-    """How far the cut under sparks came."""
-    return CheckState(_SPARKS) if process.stopped is None else CheckState(_SPARKS, "incomplete", "reason-sparks")
+def check_states(process: ProcessRun | None) -> tuple[CheckState, ...]:
+    """How far the cut under sparks came; none without."""
+    if process is None:
+        return ()
+    is_through = process.stopped is None
+    return (CheckState(_SPARKS) if is_through else CheckState(_SPARKS, "incomplete", "reason-sparks"),)

@@ -19,7 +19,7 @@ EventKind = Literal[
 _FEED_MM_MIN: Final = Bound(0.01, 1e4)
 _SECONDS: Final = Bound(0.0, 1e5)
 MOST_EVENTS: Final = 1000
-_SEED: Final = Bound(0, 2**31 - 1)
+SEED: Final = Bound(0, 2**31 - 1)
 _SET_SHARE: Final = Bound(0.01, 0.99)
 
 
@@ -180,7 +180,7 @@ SPARK = Section(
         Key("jog_feed_mm_min", Number(_FEED_MM_MIN, "mm/min", MM_MIN_AS_UM_S), "jog_um_s", 300.0),
         Key("threading", OneOf(get_args(Threading)), default=Spark().threading),
         Key("breaks_per_h", Number(Bound(0.0, 100.0), "/h"), default=Spark().breaks_per_h),
-        Key("seed", Whole(_SEED), default=Spark().seed),
+        Key("seed", Whole(SEED), default=Spark().seed),
     ),
     fills="spark",
 )
@@ -192,7 +192,7 @@ EVENT = Section(
         Key("share", Number(Bound(0.0, 1.0)), default=Event("short").share),
         Key("at_s", Number(Bound(0.0, 1e7), "s"), default=None),
         Key("per_h", Number(Bound(0.001, 1000.0), "/h"), default=None),
-        Key("seed", Whole(_SEED), default=None),
+        Key("seed", Whole(SEED), default=None),
         Key("for_s", Number(_SECONDS, "s"), default=Event("short").for_s),
         Key("clear_mm", Number(Bound(0.001, 1000.0), "mm", MM_AS_UM), "clear_um", mm(Event("short").clear_um)),
         Key("factor", Number(Bound(0.0, 1.0)), default=Event("short").factor),

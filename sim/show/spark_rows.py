@@ -1,5 +1,7 @@
 """A cut under sparks in words for people: its rows on the terminal, and what happened in it."""
 
+from collections import Counter
+from collections.abc import Iterator
 from typing import get_args
 
 from parser.findings.catalogue import Bilingual
@@ -43,12 +45,17 @@ def spark_rows(process: ProcessRun | None, names: BlockNames, tell: Words) -> li
     ]
 
 
-def _happened(process: ProcessRun, tell: Words) -> list[tuple[str, str]]:
-    if not process.shorts and not process.breaks:
-        return []
-    back = f"{mm(process.retreated_um):.3f}"
-    text = tell("sparks.happened-of", shorts=process.shorts, back=back, breaks=process.breaks)
-    return [(tell("sparks.happened"), text)]
+def _happened(process: ProcessRun, tell: Words) -> Iterator[tuple[str, str]]:
+    """Shorts, breaks, and the other events that are listed, each with how often it came."""
+    if process.shorts:
+        back = f"{mm(process.retreated_um):.3f}"
+        yield tell("sparks.shorts"), tell("sparks.shorts-of", count=process.shorts, back=back)
+    if process.breaks:
+        yield tell("sparks.breaks"), tell("sparks.breaks-of", count=process.breaks)
+    others = Counter(each.kind for each in process.moments if each.kind not in {"short", "cleared", "break"})
+    if others:
+        parts = [tell("sparks.events-of", what=event_words(kind), count=count) for kind, count in others.items()]
+        yield tell("sparks.events"), "; ".join(parts)
 
 
 def _marks(process: ProcessRun, names: BlockNames, tell: Words) -> list[tuple[str, str]]:

@@ -54,7 +54,7 @@ def pages() -> Iterator[tuple[Path, str]]:
     for path, models in DOCUMENTS.items():
         text = path.read_text("utf-8")
         before, _, rest = text.partition(BEGIN)
-        typedefs = [typedef(model) for model in models_of(models) if name_of(model) not in imported(before)]
+        typedefs = [typedef(model) for model in models_of(models, imported(before))]
         yield path, before + BEGIN + "\n" + "\n".join(typedefs) + "\n" + END + rest.partition(END)[2]
 
 
@@ -63,17 +63,19 @@ def imported(text: str) -> set[str]:
     return {name.strip() for names in re.findall(r"@import \{(.*?)\}", text) for name in names.split(",")}
 
 
-def models_of(models: Sequence[type]) -> list[type]:
-    """Models and those that they name, each once, before its parts."""
-    return list(dict.fromkeys(part for model in models for part in parts_of(model)))
+def models_of(models: Sequence[type], elsewhere: set[str]) -> list[type]:
+    """Models and those that they name, each once, before its parts; none of those by names `elsewhere`."""
+    return list(dict.fromkeys(part for model in models for part in parts_of(model, elsewhere)))
 
 
-def parts_of(of: Any) -> Iterator[type]:
-    """Models that a type is or names, each before its parts."""
+def parts_of(of: Any, elsewhere: set[str]) -> Iterator[type]:
+    """Models that a type is or names, each before its parts; of those by names `elsewhere` none, nor their parts."""
     if is_typeddict(of):
+        if name_of(of) in elsewhere:
+            return
         yield of
     for part in get_type_hints(of).values() if is_typeddict(of) else get_args(of):
-        yield from parts_of(part)
+        yield from parts_of(part, elsewhere)
 
 
 def typedef(model: Any) -> str:

@@ -158,11 +158,11 @@ def turn_switch(state: Floats, kind: float, until: float, size: float) -> None:
 
 
 @loop_part("void(Job, f8[::1], i8)", Job)
-def happen(job: Job, state: Floats, at: int) -> None:
-    """Let one of the happenings begin."""
-    kind = job.happenings.kind[at]
-    size = job.happenings.size[at]
-    seconds = job.happenings.for_s[at]
+def begin_event(job: Job, state: Floats, at: int) -> None:
+    """Begin one of the events."""
+    kind = job.events.kind[at]
+    size = job.events.size[at]
+    seconds = job.events.for_s[at]
     until = state[TICKS] + math.floor(seconds / TICK_S + 0.5)
     if kind == BREAK:
         tear_wire(job, state)
@@ -188,21 +188,20 @@ def happen(job: Job, state: Floats, at: int) -> None:
 
 
 @loop_part("void(Job, f8[::1])", Job)
-def let_happen(job: Job, state: Floats) -> None:
+def begin_events(job: Job, state: Floats) -> None:
     """Begin what happens at this step, at this time, and after so much time of cutting."""
-    happenings = job.happenings
-    by_step = int(happenings.by_step[0])
-    by_time = by_step + int(happenings.by_time[0])
-    while state[NEXT_BY_STEP] < by_step and happenings.at[int(state[NEXT_BY_STEP])] <= state[AT]:
+    events = job.events
+    by_step = int(events.by_step[0])
+    by_time = by_step + int(events.by_time[0])
+    while state[NEXT_BY_STEP] < by_step and events.at[int(state[NEXT_BY_STEP])] <= state[AT]:
         state[NEXT_BY_STEP] += 1.0
-        happen(job, state, int(state[NEXT_BY_STEP]) - 1)
-    while by_step + state[NEXT_BY_TIME] < by_time and happenings.at[by_step + int(state[NEXT_BY_TIME])] <= state[TICKS]:
+        begin_event(job, state, int(state[NEXT_BY_STEP]) - 1)
+    while by_step + state[NEXT_BY_TIME] < by_time and events.at[by_step + int(state[NEXT_BY_TIME])] <= state[TICKS]:
         state[NEXT_BY_TIME] += 1.0
-        happen(job, state, by_step + int(state[NEXT_BY_TIME]) - 1)
-    rest = len(happenings.at) - by_time
+        begin_event(job, state, by_step + int(state[NEXT_BY_TIME]) - 1)
+    rest = len(events.at) - by_time
     while (
-        state[NEXT_BY_CUT] < rest
-        and happenings.at[by_time + int(state[NEXT_BY_CUT])] <= state[TICKS] - state[STOOD_TICKS]
+        state[NEXT_BY_CUT] < rest and events.at[by_time + int(state[NEXT_BY_CUT])] <= state[TICKS] - state[STOOD_TICKS]
     ):
         state[NEXT_BY_CUT] += 1.0
-        happen(job, state, by_time + int(state[NEXT_BY_CUT]) - 1)
+        begin_event(job, state, by_time + int(state[NEXT_BY_CUT]) - 1)

@@ -6,6 +6,7 @@ from controller.compiled.loops import loop_part
 from parser.geometry.curves import Floats
 from sim.process.ticks.chance import mean_delay_us, random_normal, random_share
 from sim.process.ticks.state import (
+    ARC_SHARE,
     AT,
     BUSY_US,
     CHIP_CLEAR_UM,
@@ -49,13 +50,26 @@ def place_um(job: Job, state: Floats) -> float:
 
 
 @loop_part("void(Job, f8[::1], f8)", Job)
-def look(job: Job, state: Floats, place: float) -> None:
+def find_gap(job: Job, state: Floats, place: float) -> None:
     """Find the gap at a place. Where nothing is cut, the front goes with the wire; so it does in a start hole."""
     far_row = int(state[FAR_ROW])
     is_threaded = state[FARTHEST] == job.way.before[far_row] and job.way.thread_um[far_row] == job.way.along_um[far_row]
     if is_threaded or job.way.width_um[far_row] <= 0.0:
         state[FRONT_UM] = max(state[FRONT_UM], place + FAR_UM)
     state[GAP_UM] = min(state[FRONT_UM] - place, FAR_UM)
+
+
+@loop_part("f8(f8[::1])")
+def mean_voltage(state: Floats) -> float:
+    """Mean voltage of a tick, as a share of the open one: that of the open gap, less of an arc, none else."""
+    return float((state[OPEN_US] + ARC_SHARE * state[ON_US]) / TICK_US)
+
+
+@loop_part("f8(Job, f8[::1])", Job)
+def mean_current(job: Job, state: Floats) -> float:
+    """Mean current of a tick, as a share of the most: that of a short, or of sparks without a delay."""
+    most_on_us = TICK_US * job.discharge.on_us / (job.discharge.on_us + job.discharge.off_us)
+    return 1.0 if state[SHORT_US] > 0.0 else float(min(state[ON_US] / most_on_us, 1.0))
 
 
 @loop_part("b1(f8[::1], f8)")

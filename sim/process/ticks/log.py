@@ -2,13 +2,12 @@
 
 from controller.compiled.loops import loop_part
 from parser.geometry.curves import Floats
-from sim.process.ticks.gap import place_um
+from sim.process.ticks.gap import mean_current, mean_voltage, place_um
 from sim.process.ticks.state import (
     ALL_GAP_UM,
     ALL_ON_US,
     ALL_OPEN_US,
     ALL_SPARKS,
-    ARC_SHARE,
     AT,
     CURRENT_SUM,
     FAR_ROW,
@@ -25,7 +24,6 @@ from sim.process.ticks.state import (
     SPARKLESS_UNTIL,
     TICK_S,
     TICK_SPARKS,
-    TICK_US,
     TICKS,
     VOLTAGE_SUM,
     Job,
@@ -68,9 +66,6 @@ def thin(state: Floats, history: Floats) -> None:
 def record(job: Job, state: Floats) -> None:
     """Add a tick to the sums, and a row to the history where it is time for one."""
     records = job.records
-    voltage = (state[OPEN_US] + ARC_SHARE * state[ON_US]) / TICK_US
-    most_on_us = TICK_US * job.discharge.on_us / (job.discharge.on_us + job.discharge.off_us)
-    current = 1.0 if state[SHORT_US] > 0.0 else min(state[ON_US] / most_on_us, 1.0)
     records.block_s[int(state[ROW])] += TICK_S
     if job.way.width_um[int(state[FAR_ROW])] > 0.0:
         if state[SHORT_US] == 0.0 and state[TICKS] >= state[SPARKLESS_UNTIL]:
@@ -82,8 +77,8 @@ def record(job: Job, state: Floats) -> None:
         state[ALL_OPEN_US] += state[OPEN_US]
         state[ALL_ON_US] += state[ON_US]
         state[ALL_GAP_UM] += state[GAP_UM]
-    state[VOLTAGE_SUM] += voltage
-    state[CURRENT_SUM] += current
+    state[VOLTAGE_SUM] += mean_voltage(state)
+    state[CURRENT_SUM] += mean_current(job, state)
     stride = state[HISTORY_STRIDE]
     state[HISTORY_TICKS] += 1.0
     if state[HISTORY_TICKS] < stride:

@@ -2,9 +2,8 @@
 
 from controller.compiled.loops import loop_part
 from parser.geometry.curves import Floats
-from sim.process.ticks.gap import path_to_um, place_um, step_um
+from sim.process.ticks.gap import mean_voltage, path_to_um, place_um, step_um
 from sim.process.ticks.state import (
-    ARC_SHARE,
     AT,
     DUTY,
     FAR_ROW,
@@ -13,7 +12,6 @@ from sim.process.ticks.state import (
     FLOOR_UM,
     GAP_UM,
     NEXT_BY_STEP,
-    ON_US,
     OPEN_US,
     PROGRESS_TICK,
     RESET_UM_S,
@@ -54,7 +52,7 @@ def way_of_law(job: Job, state: Floats) -> float:
         most = TICK_US / (job.discharge.on_us + job.discharge.off_us)
         off = state[SET_SHARE] - min(state[TICK_SPARKS] / most, 1.0)
     else:
-        off = (state[OPEN_US] + ARC_SHARE * state[ON_US]) / TICK_US - state[SET_SHARE]
+        off = mean_voltage(state) - state[SET_SHARE]
     if state[SHORT_US] > 0.0:
         state[RESET_UM_S] = 0.0  # what was learned led into the short
     elif state[GAP_UM] < FAR_UM:  # while nothing ignites, no lasting error is learned
@@ -94,8 +92,8 @@ def next_stop(job: Job, state: Floats) -> float:
     """The step at which something happens next, or the last one."""
     end = job.way.before[len(job.way.before) - 1]
     at = int(state[NEXT_BY_STEP])
-    if at < job.happenings.by_step[0]:
-        return float(min(end, max(job.happenings.at[at], state[AT])))
+    if at < job.events.by_step[0]:
+        return float(min(end, max(job.events.at[at], state[AT])))
     return float(end)
 
 

@@ -210,7 +210,7 @@ class Bounds(NamedTuple):
     is_manned: float
 
 
-class Happenings(NamedTuple):
+class Events(NamedTuple):
     """What happens: at a step, then at a time, then after so much time of cutting, each in order.
 
     Attributes
@@ -263,7 +263,7 @@ class Job(NamedTuple):
     discharge: Discharge
     servo: Servo
     bounds: Bounds
-    happenings: Happenings
+    events: Events
     records: Records
 
 

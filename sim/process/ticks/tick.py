@@ -4,8 +4,8 @@ import math
 
 from controller.compiled.loops import compiled, loop_part
 from parser.geometry.curves import Floats
-from sim.process.ticks.events import let_happen, stand, tear_wire
-from sim.process.ticks.gap import let_spark, look, place_um
+from sim.process.ticks.events import begin_events, stand, tear_wire
+from sim.process.ticks.gap import find_gap, let_spark, place_um
 from sim.process.ticks.log import note, record
 from sim.process.ticks.servo import move, way_of_law
 from sim.process.ticks.state import (
@@ -96,12 +96,12 @@ def alarm(job: Job, state: Floats, is_in_vain: bool) -> int:
 @loop_part("i8(Job, f8[::1])", Job)
 def tick(job: Job, state: Floats) -> int:
     """One tick: what happens, sparks, what the control makes of them; `RUNNING`, or why it stops."""
-    let_happen(job, state)
+    begin_events(job, state)
     waiting = waits_for(state)
     if waiting != RUNNING:
         return waiting
     place = place_um(job, state)
-    look(job, state, place)
+    find_gap(job, state, place)
     removed = state[REMOVED_UM3]
     let_spark(job, state, place)
     watch_short(job, state)

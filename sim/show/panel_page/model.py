@@ -57,7 +57,7 @@ class PanelBoundsEntry(TypedDict):
 
 
 class PanelEventsEntry(TypedDict):
-    """What happens: `sim.process.ticks.state.Happenings`."""
+    """What happens: `sim.process.ticks.state.Events`."""
 
     kind: list[float]
     for_s: list[float]
@@ -95,7 +95,7 @@ class PanelEntry(TypedDict):
     discharge: PanelDischargeEntry
     servo: PanelServoEntry
     bounds: PanelBoundsEntry
-    happenings: PanelEventsEntry
+    events: PanelEventsEntry
     modes: list[PanelModeEntry]
     mode: str
     law: str

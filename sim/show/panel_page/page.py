@@ -43,7 +43,7 @@ def panel_entry(started: Started) -> PanelEntry:
         "discharge": job.discharge._asdict(),
         "servo": job.servo._asdict(),
         "bounds": _bounds(started),
-        "happenings": {name: column.tolist() for name, column in job.happenings._asdict().items()},
+        "events": {name: column.tolist() for name, column in job.events._asdict().items()},
         "modes": [
             {"name": name, "crater_um3": crater.mean_um3, "spread_um3": crater.spread_um3}
             for name, crater in CRATERS.items()

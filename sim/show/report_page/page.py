@@ -251,7 +251,7 @@ def report_page(
         tables_data=[table.data() for table in tables],
         groups=setting_groups(run.scenario, run.program),
         has_trace=has_trace,
-        has_panel=run.process is not None and has_panel(run),
+        has_panel=has_panel(run),
         machine=machine_name(run.scenario.machine),
         reproduction=reproduction(run),
         dark_pictures=_recoloured(DARK),

@@ -19,8 +19,8 @@ from sim.process.ticks import state as ticks
 from sim.process.ticks.hands import judge
 from sim.process.ticks.state import Job, Records
 from sim.process.ticks.tick import run_ticks
-from sim.process.walls import usual_feed_um_s, usual_gap_um
-from sim.process.way import standing
+from sim.process.walls import usual_feeds_um_s, usual_gap_um
+from sim.process.way import along_at, standing
 
 IncidentKind = Literal["too-fast", "too-slow", "short", "broken", "power", "water", "drum"]
 Action = Literal[
@@ -118,9 +118,7 @@ def _manned(cut: Started) -> Started:
     """The cut with somebody at it, without events, whose records are its own."""
     job = cut.job
     none = np.zeros(0)
-    happenings = job.happenings._replace(
-        kind=none, for_s=none, size=none, at=none, by_step=np.zeros(1), by_time=np.zeros(1)
-    )
+    events = job.events._replace(kind=none, for_s=none, size=none, at=none, by_step=np.zeros(1), by_time=np.zeros(1))
     fresh = Records(
         lit_s=np.zeros_like(job.records.lit_s),
         stretch_um=job.records.stretch_um,
@@ -128,9 +126,7 @@ def _manned(cut: Started) -> Started:
         log=np.zeros_like(job.records.log),
         history=np.zeros(4 * (_BEFORE_TICKS + _AFTER_TICKS + 2)),
     )
-    return cut._replace(
-        job=job._replace(bounds=job.bounds._replace(is_manned=1.0), happenings=happenings, records=fresh)
-    )
+    return cut._replace(job=job._replace(bounds=job.bounds._replace(is_manned=1.0), events=events, records=fresh))
 
 
 def _proved(cut: Started, kind: IncidentKind, chance: Random) -> OperationDrill:
@@ -147,10 +143,10 @@ def _at(cut: Started, kind: IncidentKind, chance: Random) -> OperationDrill:
     place_um = chance.uniform(_ROOM_UM, float(way.along_um[-1]) - _ROOM_UM)
     state = _running_at(cut, place_um, chance.randrange(1, 2**31 - 2))
     run_ticks(job, state, _BEFORE_TICKS)
-    _MAKERS[kind](state, float(way.along_um[int(state[ticks.ROW])]), job)
+    _MAKERS[kind](state, along_at(cut.rows, float(state[ticks.AT]))[1])
     came_to = run_ticks(job, state, _AFTER_TICKS)
     row = int(state[ticks.FAR_ROW])
-    usual_um_s = usual_feed_um_s(cut.spark, float(way.width_um[row]), cut.work.height_um)
+    usual_um_s = float(usual_feeds_um_s(cut.spark, way.width_um[row : row + 1], cut.work.height_um)[0])
     counters = standing(cut.work, cut.rows, float(state[ticks.AT])).counters
     return OperationDrill(
         kind, state, _strip(job, state, came_to), counters, came_to, _LEAST_WAY * _THEN_S * usual_um_s
@@ -187,22 +183,20 @@ def _strip(job: Job, state: Floats, came_to: int) -> Floats:
     return means
 
 
-def _chip(state: Floats, row_um: float, job: Job) -> None:
+def _chip(state: Floats, here_um: float) -> None:
     """A chip that only a long way back clears, longer than the control goes before it stops."""
-    first = float(job.way.before[int(state[ticks.ROW])])
-    in_step = float(np.diff(job.way.along_um)[int(state[ticks.ROW])] / np.diff(job.way.before)[int(state[ticks.ROW])])
-    state[ticks.CHIP_UM] = row_um + (float(state[ticks.AT]) - first) * in_step
+    state[ticks.CHIP_UM] = here_um
     state[ticks.CHIP_CLEAR_UM], state[ticks.CHIP_UNTIL] = _CHIP_UM, _EVER
 
 
-def _setting(where: int, value: float) -> Callable[[Floats, float, Job], None]:
-    def make(state: Floats, _row_um: float, _job: Job) -> None:
+def _setting(where: int, value: float) -> Callable[[Floats, float], None]:
+    def make(state: Floats, _here_um: float) -> None:
         state[where] = value
 
     return make
 
 
-_MAKERS: Final[Mapping[IncidentKind, Callable[[Floats, float, Job], None]]] = {
+_MAKERS: Final[Mapping[IncidentKind, Callable[[Floats, float], None]]] = {
     "too-fast": _setting(ticks.SET_SHARE, _FAST),
     "too-slow": _setting(ticks.SET_SHARE, _SLOW),
     "short": _chip,

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from spark_cuts import straight
 
-from sim.process.cut import job_of, run_sparks, state_of
+from sim.process.cut import job_of, run_sparks, start_state
 from sim.process.ticks import chance
 from sim.process.ticks import state as ticks
 from sim.process.ticks.state import Job
@@ -20,7 +20,7 @@ TICKS = 4000
 
 def started(spark: Spark) -> tuple[Job, np.ndarray]:
     work = straight(20_000)
-    return job_of(work, cut_rows(work), spark, ()), state_of(spark)
+    return job_of(work, cut_rows(work), spark, ()), start_state(spark)
 
 
 def ticks_of(spark: Spark) -> Iterator[tuple[float, float, float, float, float, float]]:

@@ -159,5 +159,12 @@ def test_page_and_terminal_say_that_it_is_a_model_and_what_happened() -> None:
     english = dict(summary_rows(run))
     chinese = dict(summary_rows(run, "zh"))
     assert "gap 11.8 µm" in english["under sparks"]
-    assert "1 breaks" in english["  shorts, breaks"]
-    assert "断丝 1 次" in chinese["  短路、断丝"]
+    assert english["  wire breaks"] == "1"
+    assert chinese["  断丝"] == "1 次"
+    assert "  shorts" not in english
+
+
+def test_the_terminal_says_how_often_the_power_failed() -> None:
+    run = scenario_run("sparks-power-loss")
+    assert dict(summary_rows(run))["  events"] == "power loss × 1"
+    assert dict(summary_rows(run, "zh"))["  事件"] == "断电 × 1"

@@ -18,7 +18,7 @@ const OUTCOMES = ["goes_on", "stands", "breaks_then", "shorts_then", "too_slow"]
  */
 export function outcomeOf(data, drill, actions) {
   const none = { kind: [], for_s: [], size: [], at: [], by_step: [0], by_time: [0] };
-  return judge(jobOf({ ...data.panel, happenings: none }), Float64Array.from(drill.state), Float64Array.from(actions), drill.least_um);
+  return judge(jobOf({ ...data.panel, events: none }), Float64Array.from(drill.state), Float64Array.from(actions), drill.least_um);
 }
 
 /**

@@ -20,7 +20,7 @@ import { element } from "../../html/assets/elements.js";
  * @property {PanelDischarge} discharge
  * @property {PanelServo} servo
  * @property {PanelBounds} bounds
- * @property {PanelEvents} happenings
+ * @property {PanelEvents} events
  * @property {PanelMode[]} modes
  * @property {string} mode
  * @property {string} law
@@ -88,7 +88,7 @@ import { element } from "../../html/assets/elements.js";
  */
 
 /**
- * What happens: `sim.process.ticks.state.Happenings`.
+ * What happens: `sim.process.ticks.state.Events`.
  * @typedef {object} PanelEvents
  * @property {number[]} kind
  * @property {number[]} for_s

@@ -29,7 +29,7 @@ const CHIP_TICKS = 60000;
  * @returns {Job}
  */
 export function jobOf(panel) {
-  const { way, happenings } = panel;
+  const { way, events } = panel;
   const length = way.along_um[way.along_um.length - 1];
   return {
     way: {
@@ -39,10 +39,10 @@ export function jobOf(panel) {
     discharge: { ...panel.discharge },
     servo: { ...panel.servo },
     bounds: { ...panel.bounds, area_rate_mm2_min: panel.bounds.area_rate_mm2_min ?? Infinity, is_reversed: 0, is_manned: 1 },
-    happenings: {
-      kind: Float64Array.from(happenings.kind), for_s: Float64Array.from(happenings.for_s),
-      size: Float64Array.from(happenings.size), at: Float64Array.from(happenings.at),
-      by_step: Float64Array.from(happenings.by_step), by_time: Float64Array.from(happenings.by_time),
+    events: {
+      kind: Float64Array.from(events.kind), for_s: Float64Array.from(events.for_s),
+      size: Float64Array.from(events.size), at: Float64Array.from(events.at),
+      by_step: Float64Array.from(events.by_step), by_time: Float64Array.from(events.by_time),
     },
     records: {
       lit_s: new Float64Array(Math.floor(length / panel.stretch_um) + 1), stretch_um: Float64Array.of(panel.stretch_um),

@@ -1,4 +1,5 @@
 // Puts the panel together: the cut goes on with real time, and the instruments show it.
+import { clock } from "../../html/assets/clock.js";
 import { both, element, make } from "../../html/assets/elements.js";
 import * as language from "../../html/assets/language.js";
 import { newCounters } from "./counters.js";
@@ -7,13 +8,12 @@ import { newFigure } from "./figure.js";
 import { newGauge } from "./gauge.js";
 import { newKeys } from "./keys.js";
 import { newCut } from "./machine.js";
-import { place_um } from "./plain_gap.js";
+import { mean_current, mean_voltage, path_to_um, place_um } from "./plain_gap.js";
 import {
-  ARC_SHARE, BREAKS_AGAIN, BROKEN, COLLIDED, FARTHEST, FINISHED, IN_VAIN, LOGGED, ON_US, OPEN_US, POWERLESS, ROW, RUNNING, SHORTED, SHORT_US, STALLED,
-  TICKS, TICK_S, TICK_US,
+  BREAKS_AGAIN, BROKEN, COLLIDED, FARTHEST, FAR_ROW, FINISHED, IN_VAIN, LOGGED, POWERLESS, ROW, RUNNING, SHORTED, SHORT_US, STALLED, TICKS, TICK_S,
 } from "./plain_state.js";
 import { widen } from "./plain_walls.js";
-import { clock, newReadouts } from "./readouts.js";
+import { newReadouts } from "./readouts.js";
 import { readSitting, saveSitting } from "./sitting.js";
 
 const panel = readPanel();
@@ -72,12 +72,8 @@ function measure(machine_s, real_s) {
   const { state } = cut;
   const isStill = cut.status !== RUNNING;
   const isWireless = cut.status === BROKEN || cut.status === BREAKS_AGAIN; // then the gap is open
-  const voltage = isStill ? Number(isWireless) : (state[OPEN_US] + ARC_SHARE * state[ON_US]) / TICK_US;
-  const { on_us, off_us } = cut.job.discharge;
-  const most = (TICK_US * on_us) / (on_us + off_us);
-  const current = isStill ? 0 : state[SHORT_US] > 0 ? 1 : Math.min(state[ON_US] / most, 1);
-  voltmeter.follow(voltage, real_s);
-  ammeter.follow(current, real_s);
+  voltmeter.follow(isStill ? Number(isWireless) : mean_voltage(state), real_s);
+  ammeter.follow(isStill ? 0 : mean_current(cut.job, state), real_s);
   seen.voltage = voltmeter.shown();
   const here = place_um(cut.job, state);
   if (machine_s > 0) {
@@ -131,11 +127,7 @@ function result() {
 
 /** How far along the path the wire has come. */
 function farUm() {
-  const { before, along_um } = cut.job.way;
-  const at = cut.state[FARTHEST];
-  let row = Math.trunc(cut.state[ROW]);
-  while (row < before.length - 2 && at >= before[row + 1]) row += 1;
-  return along_um[row] + ((at - before[row]) * (along_um[row + 1] - along_um[row])) / (before[row + 1] - before[row]);
+  return path_to_um(cut.job, cut.state[FAR_ROW], cut.state[FARTHEST]);
 }
 
 /** @param {number} now */

@@ -135,16 +135,16 @@ export function turn_switch(state, kind, until, size) {
 }
 
 /**
- * Let one of the happenings begin.
+ * Begin one of the events.
  * @param {Job} job
  * @param {Float64Array} state
  * @param {number} at
  * @returns {void}
  */
-export function happen(job, state, at) {
-  const kind = job.happenings.kind[at];
-  const size = job.happenings.size[at];
-  const seconds = job.happenings.for_s[at];
+export function begin_event(job, state, at) {
+  const kind = job.events.kind[at];
+  const size = job.events.size[at];
+  const seconds = job.events.for_s[at];
   const until = state[TICKS] + Math.floor((seconds / TICK_S) + 0.5);
   if (kind === BREAK) {
     tear_wire(job, state);
@@ -180,21 +180,21 @@ export function happen(job, state, at) {
  * @param {Float64Array} state
  * @returns {void}
  */
-export function let_happen(job, state) {
-  const happenings = job.happenings;
-  const by_step = Math.trunc(Number(happenings.by_step[0]));
-  const by_time = by_step + Math.trunc(Number(happenings.by_time[0]));
-  while ((state[NEXT_BY_STEP] < by_step) && (happenings.at[Math.trunc(Number(state[NEXT_BY_STEP]))] <= state[AT])) {
+export function begin_events(job, state) {
+  const events = job.events;
+  const by_step = Math.trunc(Number(events.by_step[0]));
+  const by_time = by_step + Math.trunc(Number(events.by_time[0]));
+  while ((state[NEXT_BY_STEP] < by_step) && (events.at[Math.trunc(Number(state[NEXT_BY_STEP]))] <= state[AT])) {
     state[NEXT_BY_STEP] += 1.0;
-    happen(job, state, Math.trunc(Number(state[NEXT_BY_STEP])) - 1);
+    begin_event(job, state, Math.trunc(Number(state[NEXT_BY_STEP])) - 1);
   }
-  while (((by_step + state[NEXT_BY_TIME]) < by_time) && (happenings.at[by_step + Math.trunc(Number(state[NEXT_BY_TIME]))] <= state[TICKS])) {
+  while (((by_step + state[NEXT_BY_TIME]) < by_time) && (events.at[by_step + Math.trunc(Number(state[NEXT_BY_TIME]))] <= state[TICKS])) {
     state[NEXT_BY_TIME] += 1.0;
-    happen(job, state, (by_step + Math.trunc(Number(state[NEXT_BY_TIME]))) - 1);
+    begin_event(job, state, (by_step + Math.trunc(Number(state[NEXT_BY_TIME]))) - 1);
   }
-  const rest = happenings.at.length - by_time;
-  while ((state[NEXT_BY_CUT] < rest) && (happenings.at[by_time + Math.trunc(Number(state[NEXT_BY_CUT]))] <= (state[TICKS] - state[STOOD_TICKS]))) {
+  const rest = events.at.length - by_time;
+  while ((state[NEXT_BY_CUT] < rest) && (events.at[by_time + Math.trunc(Number(state[NEXT_BY_CUT]))] <= (state[TICKS] - state[STOOD_TICKS]))) {
     state[NEXT_BY_CUT] += 1.0;
-    happen(job, state, (by_time + Math.trunc(Number(state[NEXT_BY_CUT]))) - 1);
+    begin_event(job, state, (by_time + Math.trunc(Number(state[NEXT_BY_CUT]))) - 1);
   }
 }

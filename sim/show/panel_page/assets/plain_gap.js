@@ -1,6 +1,6 @@
 // Written by `make pages` from sim/process/ticks/gap.py.
 import { mean_delay_us, random_normal, random_share } from "./plain_chance.js";
-import { AT, BUSY_US, CHIP_CLEAR_UM, CHIP_UM, CHIP_UNTIL, FAR_ROW, FAR_UM, FARTHEST, FRONT_UM, GAP_UM, ON_US, OPEN_US, REMOVED_UM3, ROW, SHORT_US, SPARKLESS_UNTIL, TICK_SPARKS, TICK_US, TICKS } from "./plain_state.js";
+import { ARC_SHARE, AT, BUSY_US, CHIP_CLEAR_UM, CHIP_UM, CHIP_UNTIL, FAR_ROW, FAR_UM, FARTHEST, FRONT_UM, GAP_UM, ON_US, OPEN_US, REMOVED_UM3, ROW, SHORT_US, SPARKLESS_UNTIL, TICK_SPARKS, TICK_US, TICKS } from "./plain_state.js";
 /** @import { Job } from "./plain_state.js" */
 
 /**
@@ -42,13 +42,33 @@ export function place_um(job, state) {
  * @param {number} place
  * @returns {void}
  */
-export function look(job, state, place) {
+export function find_gap(job, state, place) {
   const far_row = Math.trunc(Number(state[FAR_ROW]));
   const is_threaded = (state[FARTHEST] === job.way.before[far_row]) && (job.way.thread_um[far_row] === job.way.along_um[far_row]);
   if (is_threaded || (job.way.width_um[far_row] <= 0.0)) {
     state[FRONT_UM] = Math.max(state[FRONT_UM], place + FAR_UM);
   }
   state[GAP_UM] = Math.min(state[FRONT_UM] - place, FAR_UM);
+}
+
+/**
+ * Mean voltage of a tick, as a share of the open one: that of the open gap, less of an arc, none else.
+ * @param {Float64Array} state
+ * @returns {number}
+ */
+export function mean_voltage(state) {
+  return Number((state[OPEN_US] + (ARC_SHARE * state[ON_US])) / TICK_US);
+}
+
+/**
+ * Mean current of a tick, as a share of the most: that of a short, or of sparks without a delay.
+ * @param {Job} job
+ * @param {Float64Array} state
+ * @returns {number}
+ */
+export function mean_current(job, state) {
+  const most_on_us = (TICK_US * job.discharge.on_us) / (job.discharge.on_us + job.discharge.off_us);
+  return (state[SHORT_US] > 0.0) ? 1.0 : Number(Math.min(state[ON_US] / most_on_us, 1.0));
 }
 
 /**

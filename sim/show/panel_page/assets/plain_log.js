@@ -1,6 +1,6 @@
 // Written by `make pages` from sim/process/ticks/log.py.
-import { place_um } from "./plain_gap.js";
-import { ALL_GAP_UM, ALL_ON_US, ALL_OPEN_US, ALL_SPARKS, ARC_SHARE, AT, CURRENT_SUM, FAR_ROW, GAP_UM, HISTORY_ROWS, HISTORY_STRIDE, HISTORY_TICKS, LIVE_TICKS, LOGGED, ON_US, OPEN_US, ROW, SHORT_US, SPARKLESS_UNTIL, TICK_S, TICK_SPARKS, TICK_US, TICKS, VOLTAGE_SUM } from "./plain_state.js";
+import { mean_current, mean_voltage, place_um } from "./plain_gap.js";
+import { ALL_GAP_UM, ALL_ON_US, ALL_OPEN_US, ALL_SPARKS, AT, CURRENT_SUM, FAR_ROW, GAP_UM, HISTORY_ROWS, HISTORY_STRIDE, HISTORY_TICKS, LIVE_TICKS, LOGGED, ON_US, OPEN_US, ROW, SHORT_US, SPARKLESS_UNTIL, TICK_S, TICK_SPARKS, TICKS, VOLTAGE_SUM } from "./plain_state.js";
 /** @import { Job } from "./plain_state.js" */
 
 const _LOG_WIDTH = 4;
@@ -56,9 +56,6 @@ export function thin(state, history) {
  */
 export function record(job, state) {
   const records = job.records;
-  const voltage = (state[OPEN_US] + (ARC_SHARE * state[ON_US])) / TICK_US;
-  const most_on_us = (TICK_US * job.discharge.on_us) / (job.discharge.on_us + job.discharge.off_us);
-  const current = (state[SHORT_US] > 0.0) ? 1.0 : Math.min(state[ON_US] / most_on_us, 1.0);
   records.block_s[Math.trunc(Number(state[ROW]))] += TICK_S;
   if (job.way.width_um[Math.trunc(Number(state[FAR_ROW]))] > 0.0) {
     if ((state[SHORT_US] === 0.0) && (state[TICKS] >= state[SPARKLESS_UNTIL])) {
@@ -71,8 +68,8 @@ export function record(job, state) {
     state[ALL_ON_US] += state[ON_US];
     state[ALL_GAP_UM] += state[GAP_UM];
   }
-  state[VOLTAGE_SUM] += voltage;
-  state[CURRENT_SUM] += current;
+  state[VOLTAGE_SUM] += mean_voltage(state);
+  state[CURRENT_SUM] += mean_current(job, state);
   const stride = state[HISTORY_STRIDE];
   state[HISTORY_TICKS] += 1.0;
   if (state[HISTORY_TICKS] < stride) {

@@ -1,6 +1,6 @@
 // Written by `make pages` from sim/process/ticks/servo.py.
-import { path_to_um, place_um, step_um } from "./plain_gap.js";
-import { ARC_SHARE, AT, DUTY, FAR_ROW, FAR_UM, FARTHEST, FLOOR_UM, GAP_UM, NEXT_BY_STEP, ON_US, OPEN_US, PROGRESS_TICK, RESET_UM_S, RESIDUE, RETREATED_UM, ROW, SET_SHARE, SHORT_US, SPARKLESS_UNTIL, TICK_S, TICK_SPARKS, TICK_US, TICKS, WINDOW } from "./plain_state.js";
+import { mean_voltage, path_to_um, place_um, step_um } from "./plain_gap.js";
+import { AT, DUTY, FAR_ROW, FAR_UM, FARTHEST, FLOOR_UM, GAP_UM, NEXT_BY_STEP, OPEN_US, PROGRESS_TICK, RESET_UM_S, RESIDUE, RETREATED_UM, ROW, SET_SHARE, SHORT_US, SPARKLESS_UNTIL, TICK_S, TICK_SPARKS, TICK_US, TICKS, WINDOW } from "./plain_state.js";
 /** @import { Job } from "./plain_state.js" */
 
 const _ROUNDING_UM = 1e-06;
@@ -35,7 +35,7 @@ export function way_of_law(job, state) {
     const most = TICK_US / (job.discharge.on_us + job.discharge.off_us);
     off = state[SET_SHARE] - Math.min(state[TICK_SPARKS] / most, 1.0);
   } else {
-    off = ((state[OPEN_US] + (ARC_SHARE * state[ON_US])) / TICK_US) - state[SET_SHARE];
+    off = mean_voltage(state) - state[SET_SHARE];
   }
   if (state[SHORT_US] > 0.0) {
     state[RESET_UM_S] = 0.0;
@@ -92,8 +92,8 @@ export function step_back(job, state) {
 export function next_stop(job, state) {
   const end = job.way.before[job.way.before.length - 1];
   const at = Math.trunc(Number(state[NEXT_BY_STEP]));
-  if (at < job.happenings.by_step[0]) {
-    return Number(Math.min(end, Math.max(job.happenings.at[at], state[AT])));
+  if (at < job.events.by_step[0]) {
+    return Number(Math.min(end, Math.max(job.events.at[at], state[AT])));
   }
   return Number(end);
 }

@@ -290,7 +290,7 @@ export function Bounds(short_s, area_rate_mm2_min, thread_s, restart_s, jog_um_s
 
 /**
  * What happens: at a step, then at a time, then after so much time of cutting, each in order.
- * @typedef {object} Happenings
+ * @typedef {object} Events
  * @property {Float64Array} kind
  * @property {Float64Array} for_s
  * @property {Float64Array} size
@@ -306,9 +306,9 @@ export function Bounds(short_s, area_rate_mm2_min, thread_s, restart_s, jog_um_s
  * @param {Float64Array} at
  * @param {Float64Array} by_step
  * @param {Float64Array} by_time
- * @returns {Happenings}
+ * @returns {Events}
  */
-export function Happenings(kind, for_s, size, at, by_step, by_time) {
+export function Events(kind, for_s, size, at, by_step, by_time) {
   return { kind, for_s, size, at, by_step, by_time };
 }
 
@@ -341,7 +341,7 @@ export function Records(lit_s, stretch_um, block_s, log, history) {
  * @property {Discharge} discharge
  * @property {Servo} servo
  * @property {Bounds} bounds
- * @property {Happenings} happenings
+ * @property {Events} events
  * @property {Records} records
  */
 
@@ -350,12 +350,12 @@ export function Records(lit_s, stretch_um, block_s, log, history) {
  * @param {Discharge} discharge
  * @param {Servo} servo
  * @param {Bounds} bounds
- * @param {Happenings} happenings
+ * @param {Events} events
  * @param {Records} records
  * @returns {Job}
  */
-export function Job(way, discharge, servo, bounds, happenings, records) {
-  return { way, discharge, servo, bounds, happenings, records };
+export function Job(way, discharge, servo, bounds, events, records) {
+  return { way, discharge, servo, bounds, events, records };
 }
 
 /**

@@ -1,6 +1,6 @@
 // Written by `make pages` from sim/process/ticks/tick.py.
-import { let_happen, stand, tear_wire } from "./plain_events.js";
-import { let_spark, look, place_um } from "./plain_gap.js";
+import { begin_events, stand, tear_wire } from "./plain_events.js";
+import { find_gap, let_spark, place_um } from "./plain_gap.js";
 import { note, record } from "./plain_log.js";
 import { move, way_of_law } from "./plain_servo.js";
 import { AT, AT_ORIGIN, BREAKS_AGAIN, BREAKS_HERE, BROKEN, COLLIDED, CORNER_UNTIL, FARTHEST, FINISHED, HAND_UM, HOLD_UNTIL, IN_VAIN, IS_BY_HAND, LOST_TICKS, POWER_OUT, POWERLESS, PROGRESS_TICK, REMOVED_UM3, ROW, RUNNING, SHORT_TICKS, SHORTED, SINGLE_S, STALLED, STOPPED, TICK_S, TICKS, WIRE_OUT } from "./plain_state.js";
@@ -90,13 +90,13 @@ export function alarm(job, state, is_in_vain) {
  * @returns {number}
  */
 export function tick(job, state) {
-  let_happen(job, state);
+  begin_events(job, state);
   const waiting = waits_for(state);
   if (waiting !== RUNNING) {
     return waiting;
   }
   const place = place_um(job, state);
-  look(job, state, place);
+  find_gap(job, state, place);
   const removed = state[REMOVED_UM3];
   let_spark(job, state, place);
   watch_short(job, state);

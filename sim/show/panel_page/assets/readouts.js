@@ -1,4 +1,5 @@
 // Numbers and lamps of the panel.
+import { clock } from "../../html/assets/clock.js";
 import { element } from "../../html/assets/elements.js";
 import * as language from "../../html/assets/language.js";
 import {
@@ -11,16 +12,6 @@ import {
 
 /** @param {number} um */
 const mm = (um) => (um / 1000).toFixed(3).replace("-", "−");
-
-/**
- * A time as people read it.
- * @param {number} seconds
- */
-export function clock(seconds) {
-  const whole = Math.floor(seconds);
-  const [h, m, s] = [Math.floor(whole / 3600), Math.floor(whole / 60) % 60, whole % 60];
-  return `${h}:${String(m).padStart(2, "0")}:${String(s).padStart(2, "0")}`;
-}
 
 /**
  * The readouts of a panel.
@@ -80,6 +71,5 @@ export function newReadouts(panel) {
       lamp("drum", state[DRUMLESS_UNTIL] > state[TICKS]);
       lamp("generator", state[SPARKLESS_UNTIL] > state[TICKS]);
     },
-    clock,
   };
 }

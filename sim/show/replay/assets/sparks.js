@@ -1,4 +1,5 @@
 // What the control under sparks did at the moment that is shown: meters, its own time, and what happened in the block.
+import { clock } from "../../html/assets/clock.js";
 import { both, element, make } from "../../html/assets/elements.js";
 import { newGauge } from "../../panel_page/assets/gauge.js";
 
@@ -48,16 +49,6 @@ export function nearest(steps, step) {
     else high = middle;
   }
   return low > 0 && step - steps[low - 1] < steps[low] - step ? low - 1 : low;
-}
-
-/**
- * A time as people read it.
- * @param {number} seconds
- */
-function clock(seconds) {
-  const whole = Math.floor(seconds);
-  const [h, m, s] = [Math.floor(whole / 3600), Math.floor(whole / 60) % 60, whole % 60];
-  return `${h}:${String(m).padStart(2, "0")}:${String(s).padStart(2, "0")}`;
 }
 
 /**

@@ -8,7 +8,7 @@ from depth import DEEP, cases
 from spark_cuts import ARCS, OPENING, WIRE_UM, straight, work_of
 
 from controller.stepping.counters import counters_after
-from sim.process.cut import cut_from_end, job_of, run_sparks, started, state_of
+from sim.process.cut import cut_from_end, job_of, run_sparks, start_state, started
 from sim.process.ticks import servo
 from sim.process.ticks import state as ticks
 from sim.process.ticks.tick import run_ticks
@@ -211,7 +211,7 @@ def test_ways_forth_and_back_stay_on_the_path_and_lose_nothing() -> None:
     for text in (OPENING, ARCS, SMALL):
         work = work_of(text)
         rows = cut_rows(work)
-        job, state = job_of(work, rows, QUICK, ()), state_of(QUICK)
+        job, state = job_of(work, rows, QUICK, ()), start_state(QUICK)
         total, at = int(rows.way.before[-1]), 0
         for drawn in random.integers(-40, 44, 34_000 if DEEP else 8_000).tolist():
             wanted = max(min(drawn, total - 1 - at), -at)

@@ -7,7 +7,7 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from sim.process.ticks import state as ticks
-from sim.process.ticks.state import Happenings
+from sim.process.ticks.state import Events
 from sim.process.way import CutRows
 from sim.setup.spark import Event, EventKind, Spark
 
@@ -36,7 +36,7 @@ class _Timed(NamedTuple):
     event: Event
 
 
-def happenings_of(rows: CutRows, spark: Spark, events: Sequence[Event], guessed_s: float) -> Happenings:
+def events_of(rows: CutRows, spark: Spark, events: Sequence[Event], guessed_s: float) -> Events:
     """Events in the order in which they come; random ones are drawn for `guessed_s` of a cut."""
     by_step, by_time, by_cut = list[_Timed](), list[_Timed](), list[_Timed]()
     for number, event in enumerate(with_own_breaks(spark, events)):
@@ -47,7 +47,7 @@ def happenings_of(rows: CutRows, spark: Spark, events: Sequence[Event], guessed_
         else:
             by_cut += [_Timed(tick, event) for tick in drawn_ticks(event, spark.seed, number, guessed_s)]
     both = [each for part in (by_step, by_time, by_cut) for each in sorted(part, key=lambda each: each.at)]
-    return Happenings(
+    return Events(
         kind=np.array([KINDS[each.event.kind] for each in both], dtype=np.float64),
         for_s=np.array([each.event.for_s for each in both], dtype=np.float64),
         size=np.array([_size(each.event) for each in both], dtype=np.float64),
