@@ -130,25 +130,33 @@ def test_the_same_modules_give_the_same_text_and_are_joined_once(written: Writte
     assert str(tmp_path) not in first
 
 
-PAGES = ("drill_page", "index_page", "lesson_page", "replay", "report_page")
+def pages() -> list[Path]:
+    """The folders of all pages that have scripts of their own."""
+    return sorted({module.parent for module in ASSETS.glob("*/assets/*.js")} - {ASSETS / "html" / "assets"})
 
 
-@pytest.mark.parametrize("page", PAGES)
-def test_every_module_of_a_page_is_in_its_script(page: str) -> None:
-    folder = ASSETS / page / "assets"
-    template = "".join(file.read_text("utf-8") for file in folder.glob("*.j2"))
-    script = "".join(joined(folder / name) for name in re.findall(r'joined\("([\w.]+)"\)', template))
+def templates(folder: Path) -> str:
+    """The text of all templates of a page."""
+    return "".join(file.read_text("utf-8") for file in sorted(folder.glob("*.j2")))
+
+
+def scripts(folder: Path) -> str:
+    """All scripts of a page, joined as its templates have them."""
+    entries = re.findall(r'joined\("([\w./]+)"', templates(folder))
+    return "".join(joined(folder / name) for name in entries)
+
+
+@pytest.mark.parametrize("folder", pages(), ids=lambda folder: folder.parent.name)
+def test_every_module_of_a_page_is_in_its_script(folder: Path) -> None:
+    template, script = templates(folder), scripts(folder)
     for module in folder.glob("*.js"):
         alone = f'inlined("{module.name}")' in template
         assert alone or module.read_text("utf-8").partition("\n")[0] in script, module
 
 
-def test_every_module_for_all_pages_is_in_the_scripts_of_two_or_more() -> None:
-    scripts = [joined(ASSETS / page / "assets" / "main.js") for page in PAGES]
-    templates = [file.read_text("utf-8") for file in ASSETS.glob("*/assets/*.j2")]
+def test_every_module_for_all_pages_is_in_two_or_more() -> None:
+    folders = [file.parent for file in ASSETS.glob("*/assets/*.j2")]
+    texts = {folder: templates(folder) + scripts(folder) for folder in folders if folder != ASSETS / "html" / "assets"}
     for module in (ASSETS / "html" / "assets").glob("*.js"):
-        named = (f'inlined("{module.name}")', f'joined("../../html/assets/{module.name}")')
-        if sum(any(name in template for name in named) for template in templates) > 1:
-            continue
-        first = module.read_text("utf-8").partition("\n")[0]
-        assert sum(first in script for script in scripts) > 1, module
+        marks = (f'inlined("{module.name}")', module.read_text("utf-8").partition("\n")[0])
+        assert sum(any(mark in text for mark in marks) for text in texts.values()) > 1, module
