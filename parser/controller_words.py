@@ -76,6 +76,28 @@ class CompensationRules(NamedTuple):
     change_on: Literal["wedge", "alarm"] = "wedge"
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Taper:
+    """What a controller that tilts the wire is told, one row a block.
+
+    Attributes
+    ----------
+    side
+        (n,) int64, +1 where the upper end of the wire leans to the left of travel (G51), −1 to the right (G52), 0
+        upright (G50): what is in force while the block runs.
+    angle_rad
+        (n,) float64, the angle in force, 0 or more and less than a right one.
+    """
+
+    side: Ints
+    angle_rad: Floats
+
+    def __post_init__(self) -> None:
+        """Freeze the columns."""
+        self.side.setflags(write=False)
+        self.angle_rad.setflags(write=False)
+
+
 # Signs of (X, Y) in quadrants 1..4; there is no quadrant 0.
 _SIGNS = np.array([[0, 0], [1, 1], [-1, 1], [-1, -1], [1, -1]], dtype=np.int64)
 

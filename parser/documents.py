@@ -58,7 +58,7 @@ Text = Annotated[str, _limits(minLength=1)]
 Slug = Annotated[str, matching("^[a-z][a-z-]*$")]
 """A name of ours, in lower case with hyphens."""
 Version = Annotated[str, matching(r"^[0-9]+\.[0-9]+\.[0-9]+")]
-Code = Annotated[str, matching("^(3B[1-6]|[A-Z]{2,8}[1-9])[0-9]{2}$")]
+Code = Annotated[str, matching("^(3B[1-7]|[A-Z]{2,8}[1-9])[0-9]{2}$")]
 """Code of a finding: of drycut, or of a check of a shop's own."""
 Ordinal = Annotated[int, between(1, None)]
 """Number of something that is counted from 1: block, line, column, contour."""

@@ -2,15 +2,17 @@
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
+
+import numpy as np
 
 from parser.dialect.decoding import Decoder
 from parser.dialect.mender import Mender
-from parser.dialect.reader import STANDARD_CHOICES, Choices, HeaderValue, Marks, Reader, Reading
+from parser.dialect.reader import STANDARD_CHOICES, Choices, HeaderValue, Marks, Reader, Reading, at_block
 from parser.files import PROGRAMS, kind_of, read_bytes
 from parser.findings.errors import ProgramError
-from parser.findings.findings import Finding
+from parser.findings.findings import Finding, Value
 from parser.iso.dialect import ISO
 from parser.iso.profiles.profile import PROFILES
 from parser.iso.profiles.profile import own_dialect as own_dialect  # noqa: PLC0414 - handed on
@@ -72,6 +74,24 @@ def read_program(path: Path | str, choices: Choices = STANDARD_CHOICES) -> Progr
     """
     path = Path(path)
     return load_program(read_bytes(path), name=printable(path.name), choices=choices)
+
+
+def paired(program: Program, upper: Program) -> Program:
+    """The program with the contour of another one as its upper one, block by block.
+
+    ProgramError (3B705) where the blocks of the two cannot be run together: there are not as many, or one jumps where
+    the other cuts.
+    """
+    low, high = program.toolpath, upper.toolpath
+    n = min(len(low), len(high))
+    differs = np.flatnonzero(low.is_jump[:n] != high.is_jump[:n])
+    if len(low) != len(high) or len(differs):
+        row = int(differs[0]) if len(differs) else n - 1
+        values: dict[str, Value] = {"lower": len(low), "upper": len(high), "name": upper.name}
+        what = "pair-jumps" if len(differs) else "pair-counts"
+        finding = at_block(low, program.lines, "3B705", max(row, 0), what=what, **values)
+        raise ProgramError(finding, excerpt=program.excerpt(finding.line))
+    return replace(program, toolpath=replace(low, upper=high.picked(slice(None))))
 
 
 def moving(program: Program) -> Program:

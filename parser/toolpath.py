@@ -9,11 +9,11 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from parser.controller_words import Compensation, StepWords
+from parser.controller_words import Compensation, StepWords, Taper
 from parser.geometry.curves import Bools, CurveKind, Curves, Floats, Ints
 from parser.text.source import Source
 
-_NO_COLUMNS = ("words", "source", "stops", "compensation", "told_center_um")
+_NO_COLUMNS = ("words", "source", "stops", "compensation", "told_center_um", "taper", "upper")
 
 
 class Stop(NamedTuple):
@@ -80,6 +80,11 @@ class Toolpath(Curves):
     told_center_um
         (n, 2) float64, centres as the program names them, NaN where it names none; None where it cannot. The exact
         ones are moved until start and end are equally far.
+    taper
+        By which angles the program leans the wire; None where it does not.
+    upper
+        n curves, the contour of the upper plane, each run in the time of its own row; None where the program has one
+        contour.
     """
 
     printed_end_um: Floats
@@ -88,6 +93,8 @@ class Toolpath(Curves):
     stops: tuple[Stop, ...]
     compensation: Compensation | None = None
     told_center_um: Floats | None = None
+    taper: Taper | None = None
+    upper: Curves | None = None
 
     def __post_init__(self) -> None:
         """Freeze the columns, and raise ValueError with their lengths where they are not all the same."""
@@ -100,6 +107,10 @@ class Toolpath(Curves):
             }
         if self.told_center_um is not None:
             columns["told_center_um"] = self.told_center_um
+        if self.taper is not None:
+            columns |= {"taper.side": self.taper.side, "taper.angle_rad": self.taper.angle_rad}
+        if self.upper is not None:
+            columns["upper"] = self.upper.kind
         columns |= {f"source.{name}": getattr(self.source, name) for name in ("block", "span", "line", "label")}
         rows = {name: len(column) for name, column in columns.items()}
         if len(set(rows.values())) > 1:
@@ -110,6 +121,11 @@ class Toolpath(Curves):
 
     def __iter__(self) -> Iterator[Block]:
         return (self.block(row) for row in range(len(self)))
+
+    @property
+    def leans(self) -> bool:
+        """Whether the program leans the wire."""
+        return self.taper is not None or self.upper is not None
 
     @property
     def is_jump(self) -> Bools:

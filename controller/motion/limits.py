@@ -20,7 +20,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 
 from controller.motion.planner import RowLimits
-from parser.geometry.curves import Floats, Ints, total_before
+from parser.geometry.curves import Curves, Floats, Ints, total_before
 from parser.toolpath import Toolpath
 
 
@@ -99,8 +99,8 @@ class Path:
         )
 
 
-def path_of(toolpath: Toolpath) -> Path:
-    """Path of a toolpath in X and Y, program coordinates."""
+def path_of(toolpath: Curves) -> Path:
+    """Path of a toolpath, or of other curves, in X and Y, program coordinates."""
     length = toolpath.length_um
     arc = np.abs(toolpath.sweep_rad) > 0.0
     radius = np.where(arc, toolpath.radius_um, 1.0)

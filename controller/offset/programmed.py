@@ -44,6 +44,11 @@ class Compensated:
     stretches: tuple[Stretch, ...]
 
 
+def leaning_offset_um(toolpath: Toolpath, offset_um: Floats) -> Floats:
+    """Offsets (n,) as they are in the program plane, where the wire leans by T: D / cos T (EDM_NC, g24.cpp)."""
+    return offset_um if toolpath.taper is None else offset_um / np.cos(toolpath.taper.angle_rad)
+
+
 class _Ends(NamedTuple):
     """Where the path of each of k runs begins (k, 2), behind what leads into it, and ends, before what leads out."""
 
@@ -64,7 +69,7 @@ def compensated(toolpath: Toolpath) -> Compensated:
         raise ValueError("the toolpath tells of no compensation")
     side = known_sides(compensation)
     row = np.flatnonzero(~idle_rows(toolpath, side))
-    blocks, side, left_um = toolpath.picked(row), side[row], compensation.left_um[row]
+    blocks, side, left_um = toolpath.picked(row), side[row], leaning_offset_um(toolpath, compensation.left_um)[row]
     runs = runs_of(blocks, side, left_um, compensation.rules)
     parts, gone = _parts(blocks, side, runs, compensation.rules)
     vanished = np.delete(np.arange(len(toolpath)), np.delete(row, gone))

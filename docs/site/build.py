@@ -42,7 +42,7 @@ NAV: Final = {
     "check": ("check.md", "findings.md", "limits.md", "iso.md", "pmac.md", "ci.md", "editor.md"),
     "run": (
         *("scenarios.md", "report.md", "replay.md", "pictures.md"),
-        *("technology.md", "sparks.md", "time.md", "batch.md", "terminal.md"),
+        *("technology.md", "sparks.md", "taper.md", "time.md", "batch.md", "terminal.md"),
     ),
     "make": ("program.md", "drawing.md", "compare.md"),
     "measure": ("ballbar.md", "fit.md", "accept.md"),

@@ -1,9 +1,9 @@
 """Every code there is: how severe its findings are, which check gives them, and whether they name their own place.
 
 The hundreds digit of a code names the layer: ``3B1xx`` grammar, ``3B2xx`` block, ``3B3xx`` contour, ``3B4xx`` machine,
-``3B5xx`` wire offset, ``3B6xx`` drawing. ``ISO1xx`` to ``ISO5xx`` are the same layers of ISO, with the program's own
-compensation as the fifth; ``PMC1xx`` and ``PMC2xx`` are those of PMAC, ``GEC4xx`` are of programs for the GE card. A
-code is stable, and never used twice.
+``3B5xx`` wire offset, ``3B6xx`` drawing, ``3B7xx`` taper. ``ISO1xx`` to ``ISO5xx`` are the same layers of ISO, with
+the program's own compensation as the fifth; ``PMC1xx`` and ``PMC2xx`` are those of PMAC, ``GEC4xx`` are of programs for
+the GE card. A code is stable, and never used twice.
 """
 
 from collections.abc import Mapping
@@ -36,6 +36,7 @@ class Check(StrEnum):
     CORNERS = "check-corners"
     TRAVEL = "check-travel"
     COMPENSATION = "check-compensation"
+    TAPER = "check-taper"
 
 
 class FindingCode(NamedTuple):
@@ -140,6 +141,15 @@ _codes = {
     "3B607": FindingCode(Severity.WARNING, check=None, spoils=True),
     "3B608": FindingCode(Severity.WARNING, check=None),
     "3B609": FindingCode(Severity.WARNING, check=None, spoils=True),
+    "3B701": FindingCode(Severity.ERROR, check=None),
+    "3B702": FindingCode(Severity.ERROR, check=None),
+    "3B703": FindingCode(Severity.ERROR, check=None),
+    "3B704": FindingCode(Severity.ERROR, check=None),
+    "3B705": FindingCode(Severity.ERROR, check=None),
+    "3B706": FindingCode(Severity.WARNING, check=None, spoils=True),
+    "3B707": FindingCode(Severity.NOTE, Check.TAPER),
+    "3B708": FindingCode(Severity.WARNING, check=None, spoils=True),
+    "3B710": FindingCode(Severity.ERROR, check=None),
     "GEC401": FindingCode(Severity.WARNING, None),
     "GEC402": FindingCode(Severity.WARNING, None),
     "GEC403": FindingCode(Severity.WARNING, None),

@@ -22,6 +22,7 @@ from parser.iso.listing.listing import Listing
 from parser.iso.marks import mill_code
 from parser.iso.numbering import checked
 from parser.iso.path.motion import Moved, moved
+from parser.iso.planes import with_upper_contour
 from parser.iso.trace import Trace
 from parser.iso.word_checks import not_simulated
 from parser.text.encoding import narrow, no_program
@@ -63,7 +64,8 @@ def read_iso(text: str, choices: Choices) -> ReadText:
     family = profile_told(listing, choices)
     listing = checked(listing, family.profile)
     taken, path = _as_arcs_agree(listing, family, choices)
-    besides = not_simulated(listing, taken.profile)
+    path = with_upper_contour(listing, taken.profile, choices, path)
+    besides = not_simulated(listing, taken.profile, lean_is_known=path.lean_is_known)
     reading = _reading(listing, taken, path)._replace(not_simulated=besides.besides)
     of_text = (*listing.findings, *mode_findings(taken, path), *besides.findings)
     findings = (*(_by_row(finding, path.first_row) for finding in of_text), *path.findings, *_without_motion(path))

@@ -184,12 +184,12 @@ class _Reason(NamedTuple):
     words: list[str]
 
 
-def not_simulated(listing: Listing, profile: Profile) -> AskedBeside:
-    """What the words of a listing ask for beside its path."""
+def not_simulated(listing: Listing, profile: Profile, *, lean_is_known: bool) -> AskedBeside:
+    """What the words of a listing ask for beside its path; a lean that is known is no such thing."""
     found = {
         "reason-other-paths": _other_paths(listing, profile),
         "reason-macros": _macros(listing),
-        "reason-taper": _taper(listing, profile),
+        **({} if lean_is_known else {"reason-taper": _taper(listing, profile)}),
     }
     with_findings = {reason: each for reason, each in found.items() if each.findings}
     if not with_findings:

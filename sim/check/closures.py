@@ -286,4 +286,4 @@ def _miss_on(toolpath: Toolpath, row: Ints, axis: Ints) -> Floats:
     return stepped_miss(others, interpolate(others))
 
 
-_PARTS = ("words", "source", "stops", "compensation", "told_center_um")
+_PARTS = ("words", "source", "stops", "compensation", "told_center_um", "taper", "upper")

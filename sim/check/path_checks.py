@@ -6,13 +6,14 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from controller.stepping.steps import Steps, interpolate
-from parser.dialect.reader import in_codes
+from parser.dialect.reader import at_block, in_codes
 from parser.findings.codes import Check
 from parser.findings.findings import DoubtfulEnd, Finding, TooLarge, file_order, telling
 from parser.geometry.curves import Ints
 from parser.program import Program, parse_program
 from parser.shape.contours import Contour, contour_rows, find_contours
 from parser.shape.passes import find_passes
+from parser.toolpath import Toolpath
 from sim.check.closures import OpenContour, contour_findings, stepped_end_findings
 from sim.check.compensation.check import compensation_of, is_known
 from sim.check.geometry import corner_findings, crossing_findings, sense_findings
@@ -46,6 +47,8 @@ class Demands(NamedTuple):
         Offset that the controller adds; None where nobody asked for one.
     kerfs
         How wide the wire cuts in each pass; None where no technology is known.
+    has_heights
+        Whether heights of work and guides are known, so that somebody else looks at how the wire leans.
     """
 
     table: "TableModel | None" = None
@@ -54,6 +57,7 @@ class Demands(NamedTuple):
     may_stay_open: bool = False
     added_um: float | None = None
     kerfs: "Kerfs | None" = None
+    has_heights: bool = False
 
 
 class PathChecked(NamedTuple):
@@ -140,6 +144,9 @@ class _PathChecks:
         if self.compensation is not None:
             yield from self.compensation.findings
             yield self._state(Check.COMPENSATION, self._left_out or self._without_value)
+        if program.toolpath.leans and not demands.has_heights:
+            yield at_block(program.toolpath, program.lines, "3B707", _first_leaning(program.toolpath))
+            yield CheckState(Check.TAPER, "not asked", "reason-no-height")
 
     def _misfits(self) -> Iterator[Finding]:
         """Findings on offsets that do not fit the kerf of their pass."""
@@ -265,6 +272,13 @@ def _broken_contours(program: Program, rows: Ints) -> set[int]:
     near = np.concatenate([before - 1, before, np.flatnonzero(toolpath.is_endless)]).astype(np.int64)
     near = near[(near >= 0) & (near < len(toolpath))]
     return set(rows[near].tolist()) - {-1}
+
+
+def _first_leaning(toolpath: Toolpath) -> int:
+    """The first row in which the wire leans."""
+    if toolpath.taper is not None:
+        return int(np.argmax(toolpath.taper.side != 0))
+    return 0 if toolpath.upper is None else int(np.argmax((toolpath.upper.end_um != toolpath.end_um).any(axis=1)))
 
 
 def _stopped(program: Program) -> str:

@@ -37,6 +37,18 @@ class Length(click.ParamType):  # type: ignore[type-arg]  # generic in newer cli
         return value if isinstance(value, float) else parse_length(value)
 
 
+class Angle(click.ParamType):  # type: ignore[type-arg]  # generic in newer clicks alone
+    """An angle in degrees, in rad."""
+
+    name = "angle"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
+        """The angle in rad. SettingsError for what is none, or too large."""
+        from sim.setup.taper import angle_of
+
+        return value if isinstance(value, float) else angle_of(value, param.opts[0] if param else self.name)
+
+
 class Lengths(click.ParamType):  # type: ignore[type-arg]  # generic in newer clicks alone
     """Lengths with their units, with commas between them, in µm."""
 

@@ -303,12 +303,9 @@ def converted(program: Program, wanted: Wanted) -> Converted | Refused:
     checked = run_checks(program, Demands(may_stay_open=True))
     if _errors(checked):
         return Refused("source", program, _errors(checked))
-    beside_text = ", ".join(program.reading.not_simulated.words)
-    if beside_text:
-        said = tuple(finding for finding, _ in telling(checked.findings, NotSimulated))
-        return Refused("not-simulated", program, said, (("words", beside_text),))
-    if not checked.coverage.is_complete:
-        return Refused("incomplete", program)
+    lost = _beside_the_path(program, checked)
+    if lost is not None:
+        return lost
     several = _several_offsets(program.toolpath, wanted)
     if several:
         return Refused("several-offsets", program, values=(("of", several),))
@@ -320,6 +317,17 @@ def converted(program: Program, wanted: Wanted) -> Converted | Refused:
     return _word_for_word_or_not(
         program, path, draft, wanted, is_open=any(contour.is_open for contour in checked.contours)
     )
+
+
+def _beside_the_path(program: Program, checked: Checked) -> Refused | None:
+    """Why a program is not converted whose path is not all that it asks for, or not all known; None where it is."""
+    beside_text = ", ".join(program.reading.not_simulated.words)
+    if beside_text:
+        said = tuple(finding for finding, _ in telling(checked.findings, NotSimulated))
+        return Refused("not-simulated", program, said, (("words", beside_text),))
+    if program.toolpath.leans:
+        return Refused("leans", program, tuple(found for found in checked.findings if found.code == "3B707"))
+    return None if checked.coverage.is_complete else Refused("incomplete", program)
 
 
 def _word_for_word_or_not(

@@ -30,6 +30,7 @@ from sim.check.offset import Offsetting
 from sim.check.result import Coverage
 from sim.check.travel import ROUNDING_UM, beyond_um
 from sim.cut.remains import Remains
+from sim.cut.solids import TiltedCut
 from sim.measure.causes import BlockSteps, Deviations
 from sim.measure.compare.result import Comparison
 from sim.measure.factor import Interval, factor_of, interval_of
@@ -172,6 +173,8 @@ class DryRun:
         (n + 1,) float64, planned times at which the blocks begin, and the end of the last one.
     process
         What came of the cut under sparks; None where nobody asked for that.
+    tilted
+        What came of a wire that leans; None of an upright one.
     reach_um
         (n,) float64, half the width of the kerf in each row.
     remains
@@ -205,6 +208,7 @@ class DryRun:
     pass_figures: tuple[PassFigures, ...]
     border_s: Floats
     process: ProcessRun | None
+    tilted: TiltedCut | None
     reach_um: Floats
     remains: Remains | None
     comparison: Comparison | None

@@ -239,8 +239,10 @@ def _compensated(checked: Checked, made: Offsetting, feeds: Feeds) -> Prepared:
 def _demands(scenario: Scenario) -> Demands:
     """What the program is held against; with an offset, corners and travel are those of the offset path."""
     if scenario.offset is not None:
-        return Demands(may_stay_open=scenario.may_stay_open, added_um=scenario.offset.by_um)
-    return Demands(scenario.machine.table, scenario.start_um, scenario.wire.reach_um, scenario.may_stay_open)
+        return Demands(may_stay_open=scenario.may_stay_open, added_um=scenario.offset.by_um, has_heights=True)
+    return Demands(
+        scenario.machine.table, scenario.start_um, scenario.wire.reach_um, scenario.may_stay_open, has_heights=True
+    )
 
 
 def _under_offset(findings: Sequence[Finding]) -> Iterator[Finding]:

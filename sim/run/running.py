@@ -13,6 +13,7 @@ import numpy as np
 from controller.card.log import CardLog
 from controller.motion.limits import Feeds
 from controller.stepping.pulses import Pulses
+from controller.taper.tilted import TiltedPath
 from parser.dialect.reader import in_codes
 from parser.drawing.model import Drawing
 from parser.findings.findings import Finding, WithoutOffset, file_order, telling
@@ -35,6 +36,7 @@ from sim.measure.passes import PassFigures, figures_of_passes, wire_taken
 from sim.run.dryrun import DryRun, Ending, PulseSink, motion_to_end, trip_of
 from sim.run.prepare import Prepared, prepare
 from sim.run.sparks import check_states, cut_under_sparks, stop_findings, work_of
+from sim.run.tilt import cut_tilted, leaning_offset, tilt_findings, tilted_path, with_tilt, with_upper
 from sim.setup.part import DrawingTarget
 from sim.setup.scenario import Scenario
 from sim.table.losses import loss_findings
@@ -106,7 +108,8 @@ def left_of(  # noqa: PLR0913, PLR0917 - all that is known of the cut, and whom 
 class Along(NamedTuple):
     """What is run: a program that is ready, its motion, where that ends early, its pulses, and its feeds.
 
-    What it leaves is `measured` where someone looks at its sizes, and at how its pieces can move.
+    `tilt` is the way of a wire that leans. What it leaves is `measured` where someone looks at its sizes, and at how
+    its pieces can move.
     """
 
     ready: Prepared
@@ -115,6 +118,7 @@ class Along(NamedTuple):
     pulses: Iterator[Pulses]
     feeds: Feeds | None
     measured: bool = True
+    tilt: TiltedPath | None = None
 
 
 def dry_run(  # noqa: PLR0913 - whom it tells
@@ -135,10 +139,12 @@ def dry_run(  # noqa: PLR0913 - whom it tells
     drawing cannot be read.
     """
     progress("checks", 0, 1)
-    drawing, ready = drawing_of(scenario.drawing), prepare(program, scenario)
+    program, drawing = with_upper(program, scenario), drawing_of(scenario.drawing)
+    ready = prepare(program, leaning_offset(scenario))
+    tilt = tilted_path(ready, program, scenario)
     progress("plan", 0, 1)
     motion, ended = motion_to_end(ready, scenario)
-    along = Along(ready, motion, ended, driven(motion, log), ready.feeds, measured)
+    along = Along(ready, motion, ended, driven(motion, log), ready.feeds, measured, tilt)
     return run_along(along, scenario, drawing, progress, sink)
 
 
@@ -150,7 +156,7 @@ def run_along(
     sink: PulseSink | None = None,
 ) -> DryRun:
     """Let the table follow what is run, and tell all that came of it; the pulses go to `sink`, too."""
-    ready, motion, ended, pulses, feeds, measured = along
+    ready, motion, ended, pulses, feeds, measured, tilt = along
     program, toolpath = ready.program, ready.program.toolpath
     meters = Meters(motion, ready.steps)
     moved = _followed(motion, pulses, meters, sink, progress)
@@ -166,6 +172,9 @@ def run_along(
     figures = figures_of_passes(toolpath, passes, block_time_s, wire_taken(toolpath, plan, cut), wire.reach_um)
     process = cut_under_sparks(work_of(ready.steps, toolpath, scenario, figures, wire), scenario, ended)
     reach_um = wire.reach_um if process is None else wire.reach_um + process.wider_um
+    tilted = cut_tilted(ready, tilt, scenario, wire._replace(reach_um=reach_um))
+    if tilt is not None:
+        reach_um = reach_um / np.cos(tilt.wall_rad(len(toolpath)))
     is_whole = ended is None
     left = left_of(program, cut, contours, scenario, drawing, reach_um, progress, is_whole=is_whole, measured=measured)
     found = [
@@ -173,7 +182,9 @@ def run_along(
         *left.findings,
         *_fits(ready, scenario, figures, wire, left.comparison),
         *stop_findings(program, process),
+        *tilt_findings(ready, tilted, scenario),
     ]
+    states = with_tilt((*ready.coverage.checks, left.state, *check_states(process)), tilt)
     return DryRun(
         program=program,
         scenario=scenario,
@@ -192,12 +203,13 @@ def run_along(
         pass_figures=figures,
         border_s=border_s,
         process=process,
+        tilted=tilted,
         reach_um=reach_um,
         remains=left.remains,
         comparison=left.comparison,
         findings=_in_order(ready, found),
         checked=ready.findings,
-        coverage=ready.coverage._replace(checks=(*ready.coverage.checks, left.state, *check_states(process))),
+        coverage=ready.coverage._replace(checks=states),
     )
 
 

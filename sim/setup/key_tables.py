@@ -16,9 +16,11 @@ from sim.setup import limits, scenario, shop, technology
 from sim.setup.expectations import EXPECT
 from sim.setup.key_words import setting_text, words, words_of
 from sim.setup.machine import machine
+from sim.setup.machine.guides import GUIDES
 from sim.setup.making import PROGRAM
 from sim.setup.quiz import QUIZ
 from sim.setup.spark import EVENT, SPARK
+from sim.setup.taper import TAPER
 from sim.setup.toml.keys import Key, Section
 from sim.setup.toml.kinds import Number, OneOf
 
@@ -71,8 +73,8 @@ def technology_schema() -> dict[str, Any]:
     return schema
 
 
-_OWN_TABLES: Final = (QUIZ, SPARK, EVENT)
-_MAY_BE_LEFT_OUT: Final = ("arm", "spark")
+_OWN_TABLES: Final = (QUIZ, SPARK, EVENT, TAPER, GUIDES)
+_MAY_BE_LEFT_OUT: Final = ("arm", "spark", "guides")
 
 
 def section_schema(section: Section) -> dict[str, Any]:
@@ -109,6 +111,8 @@ DOCUMENTS: tuple[tuple[Language, Path], ...] = (
     ("zh", Path("docs/technology.zh.md")),
     ("en", Path("docs/sparks.md")),
     ("zh", Path("docs/sparks.zh.md")),
+    ("en", Path("docs/taper.md")),
+    ("zh", Path("docs/taper.zh.md")),
     ("en", Path("docs/accept.md")),
     ("zh", Path("docs/accept.zh.md")),
 )
@@ -131,7 +135,8 @@ def renewed(document: str, language: Language) -> str:
 
 
 def _tables(language: Language) -> dict[str, str]:
-    of_machine = [(section, key) for section in machine.SECTIONS if section is not SPARK for key in section.keys]
+    sections = [section for section in machine.SECTIONS if section not in (SPARK, GUIDES)]
+    of_machine = [(section, key) for section in sections for key in section.keys]
     return {
         "scenario": _table(_scenario_rows(), language),
         "quiz": _table((_row(QUIZ, key) for key in QUIZ.keys), language),
@@ -140,6 +145,8 @@ def _tables(language: Language) -> dict[str, str]:
         "limits": _table((_row(section, key) for section in limits.SECTIONS for key in section.keys), language),
         "technology": _table((_row(section, key) for section in technology.SECTIONS for key in section.keys), language),
         "sparks": _table((_row(SPARK, key) for key in SPARK.keys), language),
+        "taper": _table((_row(TAPER, key) for key in TAPER.keys), language),
+        "guides": _table((_row(GUIDES, key) for key in GUIDES.keys), language),
         "event": _table((_row(EVENT, key) for key in EVENT.keys), language),
         "shop": _table((_row(section, key) for section in shop.SECTIONS for key in section.keys), language),
     }

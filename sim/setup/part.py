@@ -124,7 +124,7 @@ class DrawingTarget(NamedTuple):
     unit: str | None = None
 
 
-class _SideWord(OneOf):
+class SideWord(OneOf):
     """A side by its word."""
 
     def checked(self, table: Mapping[str, Any], key: str, where: str) -> str:
@@ -144,7 +144,7 @@ class _SideWord(OneOf):
 
 
 _BY_MM = Number(OFFSET_MM, "mm", MM_AS_UM)
-SIDE = Key("side", _SideWord(tuple(SIDES)), option="--side")
+SIDE = Key("side", SideWord(tuple(SIDES)), option="--side")
 OFFSET = Section(
     "offset",
     (
@@ -233,7 +233,12 @@ DEFAULT_DENSITY_G_CM3 = 7.85
 """Steel: C45 and Cr12 lie within 0.1 of it (any table of materials)."""
 
 THICKNESS = Key(
-    "thickness_mm", Number(THICKNESS_MM, "mm"), default=DEFAULT_THICKNESS_MM, option="--thickness", form="thickness_mm"
+    "thickness_mm",
+    Number(THICKNESS_MM, "mm"),
+    default=DEFAULT_THICKNESS_MM,
+    option="--thickness",
+    older="--height",
+    form="thickness_mm",
 )
 MATERIAL = Key("material", Name(), default=None, option="--material")
 WORK = Section(

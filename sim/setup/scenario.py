@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+from controller.taper.tilted import Heights
 from parser.dialect.reader import (
     Choices,
     ChosenDialect,
@@ -21,6 +22,7 @@ from parser.text.encoding import printable
 from parser.units import from_mm, mm
 from sim.setup.dialect import READ_WITH, chosen_dialect
 from sim.setup.expectations import EXPECT, Expectation, expect_section, read_expectation
+from sim.setup.machine.guides import GUIDES, Guides, read_guides
 from sim.setup.machine.machine import Machine, load_machine
 from sim.setup.making import LAYER, PROGRAM, LayerWish, ToMake, read_to_make
 from sim.setup.obstacles import CLAMPS, Clamp, Outline, read_clamps
@@ -44,6 +46,7 @@ from sim.setup.part import (
 from sim.setup.quiz import QUIZ, Question, read_quiz
 from sim.setup.settable import INTERPOLATOR, KERF, MAY_STAY_OPEN, PAST_STOP, with_settings
 from sim.setup.spark import EVENT, SPARK, Event, Spark, read_events, read_spark
+from sim.setup.taper import TAPER, TaperSettings, heights_of, read_taper
 from sim.setup.technology import (
     Choice,
     PassTechnology,
@@ -121,6 +124,8 @@ class Scenario:
         Sparks under which it is cut too (docs/sparks.md); None where nobody asked for that.
     events
         What happens in that cut.
+    taper, guides
+        What is told of a wire that leans beside the program, and its guides; those of the machine where None.
     machine_by_default
         Whether nobody named a machine. A file that is written names it, and makes the same run all the same.
     """
@@ -153,6 +158,8 @@ class Scenario:
     material: str | None = None
     spark: Spark | None = None
     events: tuple[Event, ...] = ()
+    taper: TaperSettings | None = None
+    guides: Guides | None = None
     machine_by_default: bool = field(default=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -207,6 +214,16 @@ class Scenario:
     def layer_wishes(self) -> tuple[LayerWish, ...]:
         """What is asked of the contours of some layers where its program is made."""
         return () if self.to_make is None else self.to_make.making.layers
+
+    @property
+    def known_guides(self) -> Guides:
+        """Guides of its own, else those of its machine, else usual ones."""
+        return self.guides or self.machine.guides or Guides()
+
+    @property
+    def heights(self) -> Heights:
+        """Planes and guides of its wire. SettingsError where the program plane lies outside of the work."""
+        return heights_of(self.taper or TaperSettings(), self.known_guides, self.thickness_mm)
 
     @property
     def wire_lag_um(self) -> float:
@@ -289,7 +306,10 @@ TOP = Section(
     ),
     form="top",
 )
-SECTIONS = (TOP, WIRE, WORK, SHEET, OFFSET, PASS, DRAWING, PROGRAM, LAYER, CLAMPS, SPARK, EVENT, QUIZ, EXPECT)
+SECTIONS = (
+    *(TOP, WIRE, WORK, SHEET, OFFSET, PASS, DRAWING, PROGRAM, LAYER),
+    *(CLAMPS, SPARK, EVENT, TAPER, GUIDES, QUIZ, EXPECT),
+)
 """Sections of a scenario file."""
 
 
@@ -335,6 +355,8 @@ def load_scenario(path: Path | str) -> Scenario:
         expect=read_expectation(section(content, "expect", where), f"{where}: [expect]"),
         spark=spark,
         events=events,
+        taper=read_taper(content, where, path),
+        guides=read_guides(content, where),
         machine_by_default="machine" not in content,
         **value,
         **WORK.read_in(content, where),

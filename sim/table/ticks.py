@@ -14,8 +14,7 @@ from controller.motion.plan import Plan
 from controller.stepping.pulses import time_steps
 from controller.stepping.steps import Steps
 from parser.geometry.along import directions
-from parser.geometry.curves import Bools, Floats, Ints
-from parser.toolpath import Toolpath
+from parser.geometry.curves import Bools, Curves, Floats, Ints
 from sim.setup.machine.table import TableModel
 from sim.table.drive import drives_of
 
@@ -164,7 +163,7 @@ _NO_PROBES: Final = np.empty(0)
 
 
 def choose_ticks(
-    toolpath: Toolpath, plan: Plan, rhythm: Rhythm, sampling: Sampling, probe_s: Floats = _NO_PROBES
+    toolpath: Curves, plan: Plan, rhythm: Rhythm, sampling: Sampling, probe_s: Floats = _NO_PROBES
 ) -> Ticks:
     """Ticks of a program, from 0 until the table has come to rest after the end of the plan.
 
@@ -240,7 +239,7 @@ def _spaced(before: Floats, spacing_um: float) -> Floats:
     return np.minimum(before[row] + length[row] * (part / parts[row]), before[row + 1])
 
 
-def _behind_corners(toolpath: Toolpath, before: Floats, sampling: Sampling) -> Floats:
+def _behind_corners(toolpath: Curves, before: Floats, sampling: Sampling) -> Floats:
     """Path lengths of samples behind corners, where a wire that lags comes round; `SPACED` at most, about."""
     lag_um = sampling.lag_um
     if sampling.spacing_um * _OF_A_LAG <= lag_um or not lag_um:
@@ -269,7 +268,7 @@ def _joined(windows: Floats) -> Floats:
     return np.stack([windows[first, 0], reach[last]], axis=1)
 
 
-def shakes(toolpath: Toolpath, plan: Plan, before: Floats, rhythm: Rhythm) -> Floats:
+def shakes(toolpath: Curves, plan: Plan, before: Floats, rhythm: Rhythm) -> Floats:
     """Windows (n, 2) s from each shake until it has died: ramps of speed, corners."""
     ramps, corners = _ramps(plan, rhythm), _corners(toolpath, plan, before, rhythm)
     windows = np.concatenate([ramps, np.stack([corners, corners], axis=1)])
@@ -287,7 +286,7 @@ def _ramps(plan: Plan, rhythm: Rhythm) -> Floats:
     return np.stack([plan.time_s[:-1], plan.time_s[1:]], axis=1)[felt]
 
 
-def _corners(toolpath: Toolpath, plan: Plan, before: Floats, rhythm: Rhythm) -> Floats:
+def _corners(toolpath: Curves, plan: Plan, before: Floats, rhythm: Rhythm) -> Floats:
     """Times of the block borders at which the velocity jumps enough: swing is Δv / ω."""
     ways = directions(toolpath)
     change = ways.leaving[1:] - ways.arriving[:-1]

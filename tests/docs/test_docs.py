@@ -312,8 +312,8 @@ def test_findings_are_documented_with_severity_and_title() -> None:
 
 
 def rows_of_key(beginning: str) -> list[list[str]]:
-    """Rows of a key in the documents of scenario files: those of sparks have one of their own."""
-    return [row for page in ("scenarios.md", "sparks.md") for row in rows_of(DOCS / page, beginning)]
+    """Rows of a key in the documents of scenario files: those of sparks and taper have ones of their own."""
+    return [row for page in ("scenarios.md", "sparks.md", "taper.md") for row in rows_of(DOCS / page, beginning)]
 
 
 def rows_of(page: Path, beginning: str) -> list[list[str]]:
@@ -352,7 +352,7 @@ def test_settings_shown_are_settings(tmp_path: Path) -> None:
 
 def test_checks_are_documented_with_their_findings() -> None:
     rows = rows_of(DOCS / "check.md", "`check-")
-    assert {cells[0] for cells in rows} == {*PARSER_CHECKS, *PATH_CHECKS, Check.COMPENSATION} == set(Check)
+    assert {cells[0] for cells in rows} == {*PARSER_CHECKS, *PATH_CHECKS, Check.COMPENSATION, Check.TAPER} == set(Check)
     of_checks = {code: of.check for code, of in CODES.items() if of.check}
     assert {code: cells[0] for cells in rows for code in cells[2].split(", ")} == of_checks
 

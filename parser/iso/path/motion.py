@@ -22,6 +22,7 @@ from parser.iso.path.order_checks import order_findings
 from parser.iso.path.places import Modes, bare_place
 from parser.iso.path.registers import Run, run_of
 from parser.iso.path.rows import ROUNDING, Rows, source
+from parser.iso.path.taper import Lean, lean_of
 from parser.iso.profiles.profile import Profile
 from parser.text.source import Span
 from parser.toolpath import Stop, Toolpath
@@ -190,6 +191,8 @@ class Moved(NamedTuple):
         (b,) int64, the row that each block of the text makes when it first runs; −1 where it makes none.
     agreement
         What the arcs say of I J.
+    lean_is_known
+        Whether the wire is known in each plane.
     """
 
     toolpath: Toolpath
@@ -199,6 +202,7 @@ class Moved(NamedTuple):
     threadings: int
     first_row: Ints
     agreement: Agreement
+    lean_is_known: bool
 
 
 def moved(listing: Listing, profile: Profile, choices: Choices) -> Moved:
@@ -212,18 +216,20 @@ def moved(listing: Listing, profile: Profile, choices: Choices) -> Moved:
         *move_findings(given, run.flow.block, run.mode, run.numbers.lacks_motion, run.rows),
         *centred,  # of arcs that are read the wrong way nothing is said but that
     )
+    lean = lean_of(given, run)
     return Moved(
-        toolpath=_toolpath(given, run),
+        toolpath=_toolpath(given, run, lean),
         findings=findings,
         damages=damages(given, run),
         assumptions=assumptions(given, run),
         threadings=int((~run.numbers.moves[run.rows.at]).sum()),
         first_row=_first_rows(given, run),
         agreement=arcs,
+        lean_is_known=lean.is_known,
     )
 
 
-def _toolpath(given: GivenColumns, run: Run) -> Toolpath:
+def _toolpath(given: GivenColumns, run: Run, lean: Lean) -> Toolpath:
     curves = run.rows.curves
     return Toolpath(
         **{name: getattr(curves, name) for name in Curves.__slots__},
@@ -233,6 +239,8 @@ def _toolpath(given: GivenColumns, run: Run) -> Toolpath:
         stops=_stops(given, run.flow.block, run.rows.at),
         compensation=_compensation(run, given.profile.rules),
         told_center_um=_told_centers(run.rows),
+        taper=lean.taper,
+        upper=lean.upper,
     )
 
 

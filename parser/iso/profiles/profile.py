@@ -85,6 +85,10 @@ class Profile:
         Numbers of M words that are written twice on purpose.
     angle
         Letter of the angle by which the wire leans.
+    angle_integer_deg, angle_point_deg
+        Degrees of an angle of 1 without a point, and with one.
+    planes
+        Which contour of a block of two stands first.
     whole
         Letters of words whose numbers are whole.
     range
@@ -118,6 +122,9 @@ class Profile:
     repeatable: str
     meant_twice: tuple[int, ...]
     angle: str
+    angle_integer_deg: float
+    angle_point_deg: float
+    planes: Literal["upper-lower", "lower-upper"]
     whole: str
     range: Mapping[str, tuple[float, float]]
     most_coordinate_um: float

@@ -46,6 +46,7 @@ from sim.run.report.figures import (
     offset_entry,
     remains_entry,
     spark_entry,
+    taper_entry,
 )
 from sim.run.report.model import (
     AssumptionsEntry,
@@ -215,6 +216,7 @@ def build_report(run: DryRun) -> ReportDocument:
         "limits": [limit_entry(peak, run.ran_s) for peak in run.peaks],
         "losses": [loss_entry(loss, run.ran_s) for loss in run.losses],
         "spark": spark_entry(run.process),
+        "taper": taper_entry(run),
         "remains": remains_entry(run.remains, run.ran_s),
         "drawing": _drawing(run.comparison),
         "coverage": _coverage(run.coverage),

@@ -42,6 +42,7 @@ from sim.run.report.run_model import (
     OffsetEntry,
     PassEntry,
     SparkEntry,
+    TaperEntry,
     ThreadPointEntry,
 )
 
@@ -314,6 +315,7 @@ class ReportDocument(TypedDict):
     limits: list[LimitEntry]
     losses: list[LossEntry]
     spark: SparkEntry | None
+    taper: TaperEntry | None
     remains: RemainsEntry | None
     drawing: ComparisonEntry | None
     coverage: CoverageEntry

@@ -16,6 +16,7 @@ from parser.dialect.reader import Registers
 from parser.findings.errors import Message, SettingsError
 from parser.units import from_mm
 from sim.setup.dialect import REGISTERS
+from sim.setup.machine.guides import GUIDES, Guides, read_guides
 from sim.setup.machine.motor import MOTOR
 from sim.setup.machine.table import TABLE, TableEngine, TableModel, read_table
 from sim.setup.obstacles import ARM, Outline
@@ -158,7 +159,7 @@ TOP = Section(
     form="top",
 )
 CUTTING = Section("cutting", (Key("area_rate_mm2_min", Number(AREA_RATE_MM2_MIN, "mm²/min")),))
-SECTIONS = (TOP, TABLE, MOTOR, CONTROLLER, CUTTING, ARM, SPARK)
+SECTIONS = (TOP, TABLE, MOTOR, CONTROLLER, CUTTING, ARM, SPARK, GUIDES)
 """Sections of a machine file."""
 
 
@@ -168,7 +169,8 @@ class Machine(NamedTuple):
     `arm_um` is the outline of the arm round the wire, if known. `assumed` are the keys of the values that nobody has
     measured, `measured` those that somebody has, each with half of its 95 % interval in the unit of the key: no run
     goes by either. `name_zh` is its name in Chinese, None where that is the same. `engine` is what its table is worked
-    out with, which is no matter of the file. `spark` are the sparks of cuts that ask for them.
+    out with, which is no matter of the file. `spark` are the sparks of cuts that ask for them,
+    `guides` those of the wire, where its file says them.
     """
 
     name: str
@@ -181,6 +183,7 @@ class Machine(NamedTuple):
     measured: tuple[tuple[str, float], ...] = ()
     engine: TableEngine = "compiled"
     spark: Spark | None = None
+    guides: Guides | None = None
 
     def stepping_by(self, interpolation: Interpolation) -> "Machine":
         """The machine with another interpolator."""
@@ -256,6 +259,7 @@ def _read(path: Path) -> Machine:
         controller=read_controller(content, where),
         **CUTTING.read_in(content, where),
         spark=read_spark(content, where),
+        guides=read_guides(content, where),
         **arm,
     )
     _check_grades(machine, where)

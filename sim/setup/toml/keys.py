@@ -41,7 +41,7 @@ class Key:
     option
         The option that takes its place on the command line, such as ``--gap``; empty where there is none.
     older
-        Another name of that option, which it had before and which still holds; empty where there is none.
+        Another name of that option, such as one that it had before; empty where there is none.
     form
         The field that takes its place on the page of ``drycut open``; empty where there is none.
     """

@@ -122,6 +122,8 @@ class Paint(StrEnum):
     STEPS = "steps"
     STEPS_PALE = "steps-pale"
     CONTOUR = "contour"
+    TOP = "top"
+    BOTTOM = "bottom"
     DRAWING = "drawing"
     OVERCUT = "overcut"
     LEFT_OVER = "left-over"
@@ -174,6 +176,8 @@ LIGHT: Final[Theme] = {
     Paint.STEPS: (158, 50, 120),
     Paint.STEPS_PALE: (238, 208, 227),
     Paint.CONTOUR: (158, 50, 120),
+    Paint.TOP: (92, 60, 190),
+    Paint.BOTTOM: (122, 82, 0),
     Paint.DRAWING: (74, 106, 20),
     Paint.OVERCUT: (214, 40, 40),
     Paint.LEFT_OVER: (20, 80, 200),
@@ -223,6 +227,8 @@ DARK: Final[Theme] = {
     Paint.STEPS: (230, 150, 205),
     Paint.STEPS_PALE: (92, 48, 78),
     Paint.CONTOUR: (230, 150, 205),
+    Paint.TOP: (178, 156, 255),
+    Paint.BOTTOM: (222, 184, 96),
     Paint.DRAWING: (170, 210, 96),
     Paint.OVERCUT: (255, 92, 84),
     Paint.LEFT_OVER: (92, 140, 255),

@@ -24,6 +24,7 @@ from sim.setup.key_words import value_word
 from sim.setup.technology import PassTechnology, worst_grade
 from sim.show.refusals import taken_for_granted
 from sim.show.spark_rows import spark_rows
+from sim.show.taper_rows import taper_rows
 from sim.show.terminal.finding import finding_lines
 from sim.show.terminal.layout import paragraph, show, table
 from sim.show.terminal.printer import COLOURS, painted, say, styled
@@ -170,6 +171,7 @@ def summary_rows(run: DryRun, language: Language = "en") -> list[Row]:
         *_work_rows(run, tell),
         *_times(run, tell),
         *spark_rows(run.process, run.block_names, tell),
+        *taper_rows(run.tilted, run.scenario, tell),
         *pass_rows(run, tell),
         *_closures(run, tell),
         *_stopped(run, tell),

@@ -204,8 +204,10 @@ def test_at_most_eight_words_are_named() -> None:
     assert named == {(*(f"G{one}" for one in numbers[:8]), "…")}
 
 
-@pytest.mark.parametrize("line", ["G51 A1.5", "G52 A-2", "G51", "G01 U.04 V0", "G01 X0 Y2500 : G01 X0 Y2000"])
-def test_a_leaning_wire_is_judged_in_the_plane_that_is_programmed(line: str) -> None:
+@pytest.mark.parametrize(
+    "line", ["G51", "G51 A95.", "G51 A1.5 U.04", "G52 A2. G01 X0 Y2500 : G01 X0 Y2000", "G02 X0 Y2500 J1250 U.04"]
+)
+def test_a_lean_that_is_not_known_is_judged_in_the_plane_that_is_programmed(line: str) -> None:
     findings, reasons, verdict = check(line)
     assert [one.code for one in findings] == ["ISO600"]
     assert (reasons, verdict) == ({"reason-taper"}, "incomplete")
@@ -213,4 +215,9 @@ def test_a_leaning_wire_is_judged_in_the_plane_that_is_programmed(line: str) -> 
 
 @pytest.mark.parametrize("line", ["G50", "G51 A0", "U0 V0. G01 Y100", "T84", "M80 M82", "G04 X2.", "G60", "G54"])
 def test_what_leaves_the_path_as_it_is_says_nothing(line: str) -> None:
+    assert check(line) == ([], set(), "pass")
+
+
+@pytest.mark.parametrize("line", ["G51 A1.5", "G52 A-2", "G01 U.04 V0", "G01 X0 Y2500 : G01 X0 Y2000"])
+def test_a_lean_that_is_known_leaves_the_verdict_to_the_programmed_plane(line: str) -> None:
     assert check(line) == ([], set(), "pass")

@@ -79,6 +79,8 @@ def entries(cut: Cut, page: Page, say: Words, seen: Surroundings, drawn: Drawn) 
         (cut.leads is not None and cut.leads.any(), Entry(_kerf(seen.kerf_px, Paint.LEAD), say("cut.lead"))),
         (True, Entry(stroke(Paint.IDEAL, style.IDEAL_WIDTH), say(path))),
         (cut.contour, Entry(stroke(Paint.CONTOUR, style.CONTOUR_WIDTH), say("cut.contour"))),
+        (cut.faces, Entry(stroke(Paint.TOP, style.ACTUAL_WIDTH), say("taper.upper-contour"))),
+        (cut.faces, Entry(dashes(Paint.BOTTOM, style.ACTUAL_WIDTH), say("taper.lower-contour"))),
         (cut.trace, Entry(stroke(Paint.ACTUAL, style.ACTUAL_WIDTH), say("cut.actual"))),
         *((True, entry) for entry in off_entries(cut.off, page, say)),
         (cut.toolpath.is_jump.any(), Entry(dashes(Paint.JUMP, style.JUMP_WIDTH), say("cut.jump"))),

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 
 import numpy as np
 
-from parser.geometry.curves import Bools, Floats, Ints, box_of
-from parser.toolpath import Toolpath
+from parser.geometry.curves import Bools, CurveKind, Curves, Floats, Ints, box_of
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas, dashes_along
 from sim.show.draw.flatten import CHORD_PX, bounds_um, cut_runs, flatten, simplify
@@ -43,7 +42,8 @@ class Line(NamedTuple):
 class Lines(NamedTuple):
     """Lines on the page, px: stretches (k, 2) and jumps, each (2, 2).
 
-    Without a trace `actual` is empty and the kerf follows the path. Of its bands the later lie on top.
+    Without a trace `actual` is empty and the kerf follows the path. Of its bands the later lie on top. `faces` are the
+    ways of a wire that leans at bottom and top, none of an upright one.
     """
 
     ideal: list[Line]
@@ -51,11 +51,12 @@ class Lines(NamedTuple):
     contour: list[Floats]
     jumps: list[Floats]
     kerf: list[Band]
+    faces: tuple[list[Floats], list[Floats]]
 
 
 def path_bounds_um(cut: Cut) -> Floats:
     """Box around path, contour and kerf, (2, 2)."""
-    boxes = [bounds_um(toolpath) for toolpath in (cut.toolpath, cut.contour) if toolpath is not None]
+    boxes = [bounds_um(curves) for curves in (cut.toolpath, cut.contour, *(cut.faces or ())) if curves is not None]
     if cut.trace is not None:
         boxes.append(box_of(cut.trace.wire_um))
     return box_of(np.concatenate(boxes)) + cut.kerf_um / 2 * np.array([[-1.0], [1.0]])
@@ -80,6 +81,7 @@ def lines_of(cut: Cut, view: View) -> Lines:
         contour=[] if cut.contour is None else _path_px(cut.contour, view),
         jumps=list(view.to_px(jumps)),
         kerf=_bands(cut, view),
+        faces=([], []) if cut.faces is None else (_path_px(cut.faces[0], view), _path_px(cut.faces[1], view)),
     )
 
 
@@ -124,8 +126,8 @@ def _lines_px(points_um: Floats, row: Ints, tone: Ints, view: View) -> list[Line
     return [Line(run, each) for each in tones for run in _runs_px(points_um, row, tone != each, view)]
 
 
-def _path_px(toolpath: Toolpath, view: View) -> list[Floats]:
-    return _runs_px(*flatten(toolpath, CHORD_PX / view.px_per_um), toolpath.is_jump, view)
+def _path_px(path: Curves, view: View) -> list[Floats]:
+    return _runs_px(*flatten(path, CHORD_PX / view.px_per_um), path.kind == CurveKind.JUMP, view)
 
 
 def _runs_px(points_um: Floats, row: Ints, left_out: Bools, view: View) -> list[Floats]:
@@ -142,6 +144,11 @@ def draw_lines(canvas: Canvas, unit: float, lines: Lines) -> None:
     """Draw all lines but the kerf."""
     for run in lines.contour:
         canvas.polyline(run, Paint.CONTOUR, style.CONTOUR_WIDTH * unit)
+    bottom, top = lines.faces
+    for run in bottom:
+        canvas.dashed(run, Paint.BOTTOM, style.ACTUAL_WIDTH * unit, style.DASH * unit, style.DASH_GAP * unit)
+    for run in top:
+        canvas.polyline(run, Paint.TOP, style.ACTUAL_WIDTH * unit)
     for line in lines.actual:
         draw_line(canvas, line, Paint.ACTUAL, style.ACTUAL_WIDTH, unit)
     for line in lines.ideal:

@@ -36,4 +36,5 @@ def cut_of_run(run: DryRun, pieces: Pieces | None, say: Words, shapes: Shapes) -
         travel_um=travel_um(run.toolpath, scenario),
         off=shapes.strips(run.comparison),
         off_sizes=shapes.off_sizes(run.comparison, sizes),
+        faces=None if run.tilted is None else run.tilted.path.faces,
     )

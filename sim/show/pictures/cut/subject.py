@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 import numpy as np
 
 from parser.findings.findings import Finding
-from parser.geometry.curves import Bools, Floats, box_of
+from parser.geometry.curves import Bools, Curves, Floats, box_of
 from parser.shape.passes import Passes
 from parser.toolpath import Toolpath
 from sim.setup.obstacles import Outline
@@ -161,6 +161,8 @@ class Cut(NamedTuple):
         none.
     off_sizes
         The sizes that are off it; None as above.
+    faces
+        The way of a wire that leans at the bottom of the work, and at its top; None of an upright one.
     """
 
     toolpath: Toolpath
@@ -178,6 +180,7 @@ class Cut(NamedTuple):
     travel_um: Floats | None = None
     off: "Strips | None" = None
     off_sizes: "OffSizes | None" = None
+    faces: tuple[Curves, Curves] | None = None
 
 
 class Board(NamedTuple):

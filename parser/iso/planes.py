@@ -1,0 +1,57 @@
+"""Blocks of two contours, ``lower : upper`` or the other way round: one text of each, read block by block.
+
+The words before a colon say one contour, those behind it the other. Each contour is a program of its own: that of the
+other one is blanked out, so that all words keep their places, and the text is read again.
+"""
+
+from dataclasses import replace
+
+from parser.dialect.reader import Assumption, Choices
+from parser.geometry.curves import CurveKind
+from parser.iso.listing.lexer import read_listing
+from parser.iso.listing.listing import Form, Listing
+from parser.iso.numbering import checked
+from parser.iso.path.motion import Moved, moved
+from parser.iso.path.taper import same_rows, with_jumps
+from parser.iso.profiles.profile import Profile
+
+
+def with_upper_contour(listing: Listing, profile: Profile, choices: Choices, path: Moved) -> Moved:
+    """The path of the lower contour with that of the upper one, where blocks have both.
+
+    Where the two cannot be run block by block, or one compensates or leans besides, the wire is not known in each
+    plane.
+    """
+    planes = [statement.span for statement in listing.statements if statement.form is Form.TWO_PLANES]
+    if not planes:
+        return path
+    before, behind = _apart(listing.text, planes)
+    texts = (behind, before) if profile.planes == "upper-lower" else (before, behind)
+    lower, upper = (moved(checked(read_listing(text), profile), profile, choices) for text in texts)
+    toolpath, other = lower.toolpath, upper.toolpath
+    is_plain = not (toolpath.leans or other.leans or toolpath.compensation or other.compensation)
+    if not is_plain or not same_rows(toolpath, other) or lower.damages or upper.damages:
+        return path._replace(lean_is_known=False)
+    contour = with_jumps(other.picked(slice(None)), toolpath.kind == CurveKind.JUMP)
+    source = replace(toolpath.source, text=listing.text)
+    found = (*lower.findings, *(each for each in upper.findings if each not in lower.findings))
+    order = " : ".join(profile.planes.split("-"))
+    assumed = (*lower.assumptions, Assumption("assumed-planes", order, "because-planes"))
+    return lower._replace(toolpath=replace(toolpath, upper=contour, source=source), findings=found, assumptions=assumed)
+
+
+def _apart(text: str, planes: list[tuple[int, int]]) -> tuple[str, str]:
+    """The text with what stands before its colons alone, and with what stands behind them alone."""
+    before, behind, since = [], [], 0
+    for first, past in planes:  # of what stands before a colon, the colon included
+        end = _line_end(text, past)
+        before += [text[since : past - 1], " " * (end - past + 1)]
+        behind += [text[since:first], " " * (past - first), text[past:end]]
+        since = end
+    return "".join(before) + text[since:], "".join(behind) + text[since:]
+
+
+def _line_end(text: str, at: int) -> int:
+    """Where the line of a place ends."""
+    ends = [found for found in (text.find("\n", at), text.find("\r", at)) if found >= 0]
+    return min(ends, default=len(text))

@@ -1,0 +1,120 @@
+"""What is wrong with a lean: blocks that turn over, ways and angles that the machine does not have, uneven pieces."""
+
+from collections.abc import Iterator
+from typing import Final
+
+import numpy as np
+
+from controller.taper.tilted import TiltedPath
+from parser.dialect.reader import at_block
+from parser.findings.findings import Finding, Value
+from parser.geometry.curves import CurveKind
+from parser.program import Program
+from parser.units import from_mm, mm
+from sim.check.travel import ROUNDING_UM
+from sim.setup.machine.guides import Guides
+from sim.setup.machine.table import TableModel
+
+_UNEVEN: Final = 3.0
+"""Matched blocks, one of which is so many times as long for its plane as the other, are most likely not meant for each
+other: a square beside a circle has 1.27, a slot beside its taper of 10° 1.5."""
+_SHORT_UM: Final = 500.0
+"""Blocks that are shorter in both planes belong to corners."""
+_HAIR_UM: Final = 1.0
+
+
+def taper_findings(
+    program: Program, path: TiltedPath, guides: Guides, table: TableModel, start_um: tuple[float, float]
+) -> Iterator[Finding]:
+    """Findings 3B701 to 3B704, 3B706 and 3B709, each at the first block that it is about, and how many more there are.
+
+    `start_um` is the place of the program's start on the table.
+    """
+    yield from _turned(program, path)
+    yield from _guides(program, path, guides)
+    yield from _travel(program, path, table, start_um)
+    yield from _uneven(program, path)
+
+
+def _turned(program: Program, path: TiltedPath) -> Iterator[Finding]:
+    """3B701: nothing is left of a block at a height within the work."""
+    rows = list(dict.fromkeys(turned.row for turned in path.turned))
+    if not rows:
+        return
+    row = rows[0]
+    z_um = next(turned.z_um for turned in path.turned if turned.row == row)
+    arc = bool(program.toolpath.is_arc[row])
+    values: dict[str, Value] = {"z_mm": mm(z_um), "off_mm": mm(abs(z_um - path.heights.program_um))}
+    what = "turned-arc" if arc else "turned-line"
+    size_um = float(program.toolpath.radius_um[row] if arc else program.toolpath.length_um[row])
+    yield _at(program, "3B701", row, **values, what=what, size=size_um, more=len(rows) - 1)
+
+
+def _guides(program: Program, path: TiltedPath, guides: Guides) -> Iterator[Finding]:
+    """3B702, 3B703 and 3B710: U, V or the angle go farther than the machine does."""
+    row, reach = path.reach()
+    if guides.travel_u_um == 0.0 or guides.travel_v_um == 0.0:
+        yield _at(program, "3B710", int(row[np.argmax(np.hypot(*reach.T))]))
+        return
+    for axis, travel_um in enumerate((guides.travel_u_um, guides.travel_v_um)):
+        beyond = np.flatnonzero(np.abs(reach[:, axis]) > (travel_um or np.inf) / 2.0 + ROUNDING_UM)
+        if travel_um is not None and len(beyond):
+            most = float(np.abs(reach[:, axis]).max())
+            yield _at(
+                program, "3B702", int(row[beyond[0]]), axis="UV"[axis], most_mm=mm(most), travel_mm=mm(travel_um / 2.0)
+            )
+            break
+    lean = path.lean_most_rad()
+    if guides.most_rad is not None and lean > guides.most_rad + 1e-9:
+        worst = int(path.source_row[path.most_leaning_row()])
+        yield _at(program, "3B703", worst, angle_deg=np.degrees(lean), most_deg=np.degrees(guides.most_rad))
+
+
+def _travel(program: Program, path: TiltedPath, table: TableModel, start_um: tuple[float, float]) -> Iterator[Finding]:
+    """3B704: the lower guide leaves the travel of X and Y, where the path of the program plane does not."""
+    row, place = path.guide_places()
+    shift = np.array(start_um) - program.toolpath.start_um[0]
+    travel = from_mm(np.array([table.travel_x_mm, table.travel_y_mm]))
+    on_table = place + shift
+    beyond = np.maximum(-on_table, on_table - travel).max(axis=1)
+    out = np.flatnonzero(beyond > _HAIR_UM)
+    if not len(out):
+        return
+    own = program.toolpath.end_um + shift
+    if (np.maximum(-own, own - travel).max(axis=1) > _HAIR_UM).any():
+        return  # 3B401 says it
+    yield _at(
+        program,
+        "3B704",
+        int(row[out[0]]),
+        by_mm=mm(float(beyond.max())),
+        wide_mm=table.travel_x_mm,
+        deep_mm=table.travel_y_mm,
+    )
+
+
+def _uneven(program: Program, path: TiltedPath) -> Iterator[Finding]:
+    """3B706: one of two blocks that are run together is far longer than the other, by the size of their contours."""
+    if program.toolpath.upper is None:
+        return
+    cut = program.toolpath.kind != CurveKind.JUMP
+    lengths = [np.where(cut, of.length_um, 0.0) for of in (program.toolpath, program.toolpath.upper)]
+    sizes = [max(float(length.sum()), 1.0) for length in lengths]
+    lower, upper = (length / size for length, size in zip(lengths, sizes, strict=True))
+    longer, shorter = np.maximum(lower, upper), np.minimum(lower, upper)
+    long = np.maximum(*lengths) > _SHORT_UM
+    rows = np.flatnonzero(long & (longer > _UNEVEN * shorter) & cut)
+    if len(rows):
+        row = int(rows[0])
+        yield _at(
+            program,
+            "3B706",
+            row,
+            lower_mm=mm(float(lengths[0][row])),
+            upper_mm=mm(float(lengths[1][row])),
+            more=len(rows) - 1,
+        )
+
+
+def _at(program: Program, code: str, row: int, **values: Value) -> Finding:
+    return at_block(program.toolpath, program.lines, code, row, **values)

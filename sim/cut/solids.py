@@ -1,0 +1,217 @@
+"""What a tilted wire leaves: its cut at several heights, and pieces that reach through all of them.
+
+At each height the wire's way is a contour of its own (`TiltedPath.section`), and the kerf there reaches to both sides
+of it by more than that of an upright wire: a round wire that leans by T across its wall cuts an ellipse, 1 / cos T as
+wide.
+"""
+
+from dataclasses import dataclass, replace
+from typing import Final, Literal, NamedTuple
+
+import numpy as np
+
+from controller.taper.tilted import TiltedPath
+from parser.geometry.curves import Curves, Floats, Ints, extents
+from parser.program import Program
+from parser.shape.contours import find_contours
+from parser.toolpath import Toolpath
+from parser.units import mm
+from sim.cut.pieces.pieces import Piece, Pieces
+from sim.cut.regions import RegionError
+from sim.cut.remains import pieces_left
+from sim.cut.wire_lag import bowed
+from sim.setup.scenario import Scenario
+from sim.table.tilted import FourAxes
+from sim.table.trace import Trace
+
+_SHARES: Final = (0.0, 0.25, 0.5, 0.75, 1.0)
+"""Heights at which a cut is looked at, as shares of the work; the program plane comes to them."""
+_ALIKE: Final = 1e-6
+_MM2_PER_UM2, _MM3_PER_UM3 = 1e-6, 1e-9
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Section:
+    """The cut at a height.
+
+    Attributes
+    ----------
+    z_um
+        Above the bottom of the work.
+    curves
+        The wire's way.
+    programmed_um2
+        Area within the closed contours of the wire's way.
+    low_um, high_um
+        Corners of the box about these, (2,).
+    off_um
+        The most by which the wire was off its wall, across it, by table and head.
+    trace
+        Where the wire was over time; rows are those of `curves`.
+    pieces
+        What comes free there; None where nobody asked, or where that could not be worked out.
+    """
+
+    z_um: float
+    curves: Curves
+    programmed_um2: float
+    low_um: Floats
+    high_um: Floats
+    off_um: float
+    trace: Trace
+    pieces: Pieces | None
+
+    @property
+    def piece_mm2(self) -> float | None:
+        """Area of all that comes free there; None where that is not known."""
+        return None if self.pieces is None else sum(piece.area_mm2 for piece in self.pieces.freed)
+
+
+class Solid(NamedTuple):
+    """A piece that comes free through the whole of the work.
+
+    Attributes
+    ----------
+    kind
+        Part or slug.
+    volume_mm3, mass_g
+        Of it, by the areas at bottom, middle and top.
+    larger
+        Which end of it is the larger one.
+    drops
+        Whether it can fall out downwards: it is nowhere larger than below.
+    """
+
+    kind: Literal["part", "slug"]
+    volume_mm3: float
+    mass_g: float
+    larger: Literal["top", "bottom", "neither"]
+    drops: bool
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class TiltedCut:
+    """A cut with a tilted wire.
+
+    Attributes
+    ----------
+    axes
+        How its guides moved, and along what.
+    sections
+        From the bottom of the work to its top.
+    programmed_mm3
+        Volume within the closed contours of the wire's way.
+    solids
+        Pieces; empty where no pieces are known, or not the same ones at all heights.
+    """
+
+    axes: FourAxes
+    sections: tuple[Section, ...]
+    programmed_mm3: float
+    solids: tuple[Solid, ...]
+
+    @property
+    def path(self) -> TiltedPath:
+        """The way of the wire."""
+        return self.axes.path
+
+    @property
+    def piece_mm3(self) -> float | None:
+        """Volume of all pieces; None where they are not known."""
+        return sum(solid.volume_mm3 for solid in self.solids) if self.solids else None
+
+
+class UprightWire(NamedTuple):
+    """Half the kerf, and the lag, of an upright wire in each row (n,) of the toolpath, µm."""
+
+    reach_um: Floats
+    lag_um: Floats
+
+
+def tilted_cut(program: Program, axes: FourAxes, scenario: Scenario, wire: UprightWire, *, kerf: bool) -> TiltedCut:
+    """The cut of a wire between guides that moved so; with `kerf` its pieces too."""
+    path = axes.path
+    work_um = path.heights.work_um
+    heights = sorted({*(share * work_um for share in _SHARES), path.heights.program_um})
+    sections = tuple(_section(program, axes, scenario, wire, z_um, kerf=kerf) for z_um in heights)
+    volume = sum(abs(path.ruled.volume_um3(loop, 0.0, work_um)) for loop in path.loops) * _MM3_PER_UM3
+    return TiltedCut(axes, sections, volume, _solids(sections, work_um, scenario))
+
+
+def _section(  # noqa: PLR0913 - what is cut, along what, how wide and where
+    program: Program, axes: FourAxes, scenario: Scenario, wire: UprightWire, z_um: float, *, kerf: bool
+) -> Section:
+    path = axes.path
+    curves, row = path.section(z_um)
+    programmed = sum(abs(path.ruled.area_um2(loop, z_um)) for loop in path.loops)
+    closed = curves.picked(np.isin(row, np.concatenate([np.zeros(0, dtype=np.int64), *path.loops])))
+    low, high = extents(closed if len(closed) else curves)
+    source = path.source_row[row]
+    toolpath = _toolpath(program.toolpath, curves, source)
+    trace = _trace(axes, z_um, toolpath, row, wire.lag_um[source])
+    pieces = None
+    if kerf:
+        reach = wire.reach_um[source] / np.cos(path.across_rad())[row]
+        pieces = _pieces(replace(program, toolpath=toolpath), trace, scenario, reach)
+    off = _off_um(axes, z_um)
+    return Section(z_um, curves, programmed, low.min(axis=0), high.max(axis=0), off, trace, pieces)
+
+
+def _trace(axes: FourAxes, z_um: float, toolpath: Toolpath, row: Ints, lag_um: Floats) -> Trace:
+    """The trace of the wire at a height, by the rows of the section there; bowed back where it lags."""
+    first = np.searchsorted(row, np.arange(len(axes.path.ruled)))
+    count = np.bincount(row, minlength=len(axes.path.ruled))
+    at, share = axes.lower.row, axes.shares()
+    chord = np.minimum((share * count[at]).astype(np.int64), count[at] - 1)
+    wire = axes.wire_um(z_um)
+    trace = Trace(axes.lower.t_s, wire, wire, wire, first[at] + chord)
+    return bowed(trace, toolpath, lag_um)
+
+
+def _off_um(axes: FourAxes, z_um: float) -> float:
+    """The most by which the straight wire was off its wall at a height, across it."""
+    path, row, share = axes.path, axes.lower.row, axes.shares()
+    off = axes.wire_um(z_um) - path.ruled.places(row, share, z_um)
+    across = path.across(row, share)
+    return float(np.abs((off * across).sum(axis=1)).max(initial=0.0))
+
+
+def _toolpath(of: Toolpath, curves: Curves, source_row: Ints) -> Toolpath:
+    """The toolpath of a section."""
+    stops = tuple(stop._replace(after=int(np.searchsorted(source_row, stop.after, side="left"))) for stop in of.stops)
+    return Toolpath(
+        **{name: getattr(curves, name) for name in Curves.__slots__},
+        printed_end_um=np.full((len(curves), 2), np.nan),
+        words=None,
+        source=of.source.picked(source_row),
+        stops=stops,
+    )
+
+
+def _pieces(program: Program, trace: Trace, scenario: Scenario, reach_um: Floats) -> Pieces | None:
+    """What comes free of a cut by where the wire was."""
+    toolpath = program.toolpath
+    corner = np.rint(np.concatenate([toolpath.start_um[:1], toolpath.end_um])).astype(np.int64)
+    try:
+        return pieces_left(program, trace, find_contours(toolpath, corner), scenario, reach_um)
+    except RegionError:
+        return None
+
+
+def _solids(sections: tuple[Section, ...], work_um: float, scenario: Scenario) -> tuple[Solid, ...]:
+    """The pieces of the sections at bottom, middle and top as solids, where all heights have as many."""
+    known = [section.pieces.freed for section in sections if section.pieces is not None]
+    if len(known) < len(sections) or len({len(freed) for freed in known}) != 1:
+        return ()
+    by_height = {section.z_um: freed for section, freed in zip(sections, known, strict=True)}
+    through = [by_height[share * work_um] for share in (0.0, 0.5, 1.0)]
+    return tuple(_solid(pieces, mm(work_um), scenario) for pieces in zip(*through, strict=True))
+
+
+def _solid(pieces: tuple[Piece, ...], height_mm: float, scenario: Scenario) -> Solid:
+    low, middle, high = (piece.area_mm2 for piece in pieces)
+    volume = height_mm * (low + 4.0 * middle + high) / 6.0
+    alike = abs(high - low) <= _ALIKE * max(high, low)
+    larger: Literal["top", "bottom", "neither"] = "neither" if alike else "top" if high > low else "bottom"
+    mass = volume * scenario.density_g_cm3 * 1e-3
+    return Solid(pieces[0].kind, volume, mass, larger, drops=larger != "top")
