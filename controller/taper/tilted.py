@@ -149,6 +149,18 @@ class UVMost(NamedTuple):
     corner_um: float
 
 
+def section_toolpath(of: Toolpath, curves: Curves, source_row: Ints) -> Toolpath:
+    """The way of the wire at a height as a toolpath, whose rows belong to rows (k,) of the programmed one."""
+    after = np.searchsorted(source_row, [stop.after for stop in of.stops], side="left").tolist()
+    return Toolpath(
+        **{name: getattr(curves, name) for name in Curves.__slots__},
+        printed_end_um=np.full((len(curves), 2), np.nan),
+        words=None,
+        source=of.source.picked(source_row),
+        stops=tuple(stop._replace(after=rows) for stop, rows in zip(of.stops, after, strict=True)),
+    )
+
+
 class Lean(NamedTuple):
     """How the wire leans along n rows.
 

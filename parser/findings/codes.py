@@ -149,6 +149,7 @@ _codes = {
     "3B706": FindingCode(Severity.WARNING, check=None, spoils=True),
     "3B707": FindingCode(Severity.NOTE, Check.TAPER),
     "3B708": FindingCode(Severity.WARNING, check=None, spoils=True),
+    "3B709": FindingCode(Severity.ERROR, check=None),
     "3B710": FindingCode(Severity.ERROR, check=None),
     "GEC401": FindingCode(Severity.WARNING, None),
     "GEC402": FindingCode(Severity.WARNING, None),

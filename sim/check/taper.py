@@ -5,12 +5,16 @@ from typing import Final
 
 import numpy as np
 
-from controller.taper.tilted import TiltedPath
+from controller.taper.tilted import TiltedPath, section_toolpath
 from parser.dialect.reader import at_block
 from parser.findings.findings import Finding, Value
 from parser.geometry.curves import CurveKind
 from parser.program import Program
+from parser.shape.contours import contour_rows
+from parser.shape.passes import find_passes
+from parser.toolpath import Toolpath
 from parser.units import from_mm, mm
+from sim.check.crossings import find_crossings
 from sim.check.travel import ROUNDING_UM
 from sim.setup.machine.guides import Guides
 from sim.setup.machine.table import TableModel
@@ -34,6 +38,7 @@ def taper_findings(
     yield from _guides(program, path, guides)
     yield from _travel(program, path, table, start_um)
     yield from _uneven(program, path)
+    yield from _crossing(program, path)
 
 
 def _turned(program: Program, path: TiltedPath) -> Iterator[Finding]:
@@ -114,6 +119,27 @@ def _uneven(program: Program, path: TiltedPath) -> Iterator[Finding]:
             upper_mm=mm(float(lengths[1][row])),
             more=len(rows) - 1,
         )
+
+
+def _crossing(program: Program, path: TiltedPath) -> Iterator[Finding]:
+    """3B709: the wire runs over its own way at the bottom or the top, and does not in the program plane.
+
+    A block that turns over does so too, and is told by that.
+    """
+    if path.turned or _first_crossing(program.toolpath) is not None:
+        return
+    for z_um, curves in zip((0.0, path.heights.work_um), path.faces, strict=True):
+        row = _first_crossing(section_toolpath(program.toolpath, curves, path.source_row))
+        if row is not None:
+            yield _at(program, "3B709", int(path.source_row[row]), z_mm=mm(z_um))
+            return
+
+
+def _first_crossing(toolpath: Toolpath) -> int | None:
+    """The first row in which a path crosses itself; None where it does not."""
+    crossings = find_crossings(toolpath, contour_rows(toolpath), find_passes(toolpath))
+    firsts = [each.first[0] for each in crossings if each.first is not None]
+    return min(firsts, default=None)
 
 
 def _at(program: Program, code: str, row: int, **values: Value) -> Finding:

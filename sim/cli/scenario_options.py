@@ -221,7 +221,7 @@ def _taper(own: "TaperSettings | None", options: Overrides) -> "TaperSettings | 
 
     SettingsError where an angle and an upper contour are given, and for a plane out of bounds.
     """
-    from sim.setup.taper import PLANE_MM, TaperSettings, refuse_both
+    from sim.setup.taper import PLANE_MM, TaperSettings, read_upper
 
     if options.program_plane is not None:
         number(mm(options.program_plane), PLANE_MM, "--program-plane in mm")
@@ -230,13 +230,14 @@ def _taper(own: "TaperSettings | None", options: Overrides) -> "TaperSettings | 
         "side": None if options.taper_side is None else SIDES[options.taper_side],
         "corner": options.taper_corner,
         "program_plane_um": options.program_plane,
-        "upper": options.upper,
+        "upper": options.upper and read_upper(options.upper),
     }
     values: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
     if not values or (own is None and values == {"angle_rad": 0.0}):
         return own
     taper = (own or TaperSettings())._replace(**values)
-    refuse_both(taper, "--upper")
+    if taper.upper is not None and taper.angle_rad is not None:
+        raise SettingsError("taper-angle-and-upper", where="--upper")
     return taper
 
 

@@ -10,7 +10,7 @@ from typing import Final, Literal, NamedTuple
 
 import numpy as np
 
-from controller.taper.tilted import TiltedPath
+from controller.taper.tilted import TiltedPath, section_toolpath
 from parser.geometry.curves import Curves, Floats, Ints, extents
 from parser.program import Program
 from parser.shape.contours import find_contours
@@ -147,7 +147,7 @@ def _section(  # noqa: PLR0913 - what is cut, along what, how wide and where
     closed = curves.picked(np.isin(row, np.concatenate([np.zeros(0, dtype=np.int64), *path.loops])))
     low, high = extents(closed if len(closed) else curves)
     source = path.source_row[row]
-    toolpath = _toolpath(program.toolpath, curves, source)
+    toolpath = section_toolpath(program.toolpath, curves, source)
     trace = _trace(axes, z_um, toolpath, row, wire.lag_um[source])
     pieces = None
     if kerf:
@@ -174,18 +174,6 @@ def _off_um(axes: FourAxes, z_um: float) -> float:
     off = axes.wire_um(z_um) - path.ruled.places(row, share, z_um)
     across = path.across(row, share)
     return float(np.abs((off * across).sum(axis=1)).max(initial=0.0))
-
-
-def _toolpath(of: Toolpath, curves: Curves, source_row: Ints) -> Toolpath:
-    """The toolpath of a section."""
-    stops = tuple(stop._replace(after=int(np.searchsorted(source_row, stop.after, side="left"))) for stop in of.stops)
-    return Toolpath(
-        **{name: getattr(curves, name) for name in Curves.__slots__},
-        printed_end_um=np.full((len(curves), 2), np.nan),
-        words=None,
-        source=of.source.picked(source_row),
-        stops=stops,
-    )
 
 
 def _pieces(program: Program, trace: Trace, scenario: Scenario, reach_um: Floats) -> Pieces | None:

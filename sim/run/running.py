@@ -34,9 +34,10 @@ from sim.measure.compare.result import Comparison
 from sim.measure.kerf_fit import offset_findings, tolerance_findings
 from sim.measure.passes import PassFigures, figures_of_passes, wire_taken
 from sim.run.dryrun import DryRun, Ending, PulseSink, motion_to_end, trip_of
+from sim.run.lean import leaning_offset, tilted_path, with_upper
 from sim.run.prepare import Prepared, prepare
 from sim.run.sparks import check_states, cut_under_sparks, stop_findings, work_of
-from sim.run.tilt import cut_tilted, leaning_offset, tilt_findings, tilted_path, with_tilt, with_upper
+from sim.run.tilt import cut_tilted, tilt_findings, with_tilt
 from sim.setup.part import DrawingTarget
 from sim.setup.scenario import Scenario
 from sim.table.losses import loss_findings

@@ -1,24 +1,18 @@
-"""A program whose wire leans: its contours at two heights, and what they come to.
+"""A run whose wire leans: four axes along its two contours, what they cut, and what is wrong with it.
 
-The lean is what the program tells block by block, what its scenario tells of all contours, or a second contour. The
-rest of a run goes by the program plane, with an upright wire: there the wire is where the program says.
+The rest of a run goes by the program plane, with an upright wire: there the wire is where the program says.
 """
 
 from collections.abc import Iterator
-from dataclasses import replace
 from typing import Final
 
 import numpy as np
 
 from controller.motion.limits import run_starts
-from controller.taper.tilted import Lean, TiltedPath, between_contours, figure_lean, tilted, told_lean
-from parser.controller_words import Taper
+from controller.taper.tilted import TiltedPath
 from parser.dialect.reader import at_block
 from parser.findings.codes import Check
-from parser.findings.errors import SettingsError
 from parser.findings.findings import Finding
-from parser.geometry.curves import Floats
-from parser.program import Program, paired, read_program
 from parser.units import mm
 from sim.check.result import CheckState
 from sim.check.taper import taper_findings
@@ -26,81 +20,11 @@ from sim.cut.solids import TiltedCut, UprightWire, tilted_cut
 from sim.cut.wire_rows import WireRows
 from sim.run.prepare import Prepared
 from sim.setup.scenario import Scenario
-from sim.setup.taper import TaperSettings
 from sim.table.losses import loss_findings
 from sim.table.ticks import Sampling
 from sim.table.tilted import follow_tilted
 
 _MOST_OFF_UM: Final = 1.0
-
-
-def with_upper(program: Program, scenario: Scenario) -> Program:
-    """The program with the upper contour that its scenario names; as it is where that names none.
-
-    FileUnreadableError or ProgramError where there is no such program, ProgramError (3B705) where its blocks do not
-    match, SettingsError where the program leans by itself.
-    """
-    taper = scenario.taper
-    if taper is None or taper.upper is None:
-        return program
-    upper = read_program(taper.upper, scenario.choices)
-    for each in (program, upper):
-        if each.toolpath.leans:
-            raise SettingsError("taper-twice", name=each.name)
-    return paired(program, upper)
-
-
-def tilted_path(ready: Prepared, drawn: Program, scenario: Scenario) -> TiltedPath | None:
-    """The way of the wire of a program that is ready, and was `drawn` so; None where it is upright.
-
-    SettingsError where program and scenario both tell of the lean, where the program plane is outside of the work, and
-    where two contours are to be offset.
-    """
-    toolpath, taper, contour = ready.program.toolpath, scenario.taper or TaperSettings(), drawn.toolpath
-    angle_rad = taper.angle_rad or 0.0
-    if contour.leans and angle_rad:
-        raise SettingsError("taper-twice", name=drawn.name)
-    if not contour.leans and not angle_rad:
-        return None
-    heights = scenario.heights
-    if contour.upper is not None:
-        if ready.offset is not None:
-            raise SettingsError("contours-not-offset", name=drawn.name)
-        planes = (taper.program_plane_um, heights.work_um)
-        return between_contours(contour, contour.upper, heights, planes)
-    if contour.taper is not None:
-        lean = told_lean(_as_run(contour.taper, ready), toolpath)
-    else:
-        side = int(taper.side) * _directions(ready)
-        lean = figure_lean(toolpath, angle_rad, 1)
-        lean = Lean(lean.tangent * side, lean.tilts)
-    return tilted(toolpath, lean, heights, taper.corner)
-
-
-def _directions(ready: Prepared) -> Floats:
-    """(n,) +1 on rows that run as they were drawn, −1 on those of passes that run back."""
-    if ready.offset is None:
-        return np.ones(len(ready.program.toolpath))
-    return np.where(ready.offset.passed.is_back[ready.offset.path.source_row], -1.0, 1.0)
-
-
-def _as_run(taper: Taper, ready: Prepared) -> Taper:
-    """The lean of a program along the rows of the path that runs."""
-    if ready.offset is None:
-        return taper
-    source = ready.offset.path.source_row
-    row, back = ready.offset.passed.row[source], ready.offset.passed.is_back[source]
-    return Taper(np.where(back, -taper.side[row], taper.side[row]), taper.angle_rad[row])
-
-
-def leaning_offset(scenario: Scenario) -> Scenario:
-    """The scenario with the offset as it is in the program plane, where all contours lean by T: D / cos T."""
-    angle_rad = scenario.taper.angle_rad if scenario.taper is not None else None
-    if not angle_rad or scenario.offset is None:
-        return scenario
-    cos = float(np.cos(angle_rad))
-    passes = tuple(each._replace(by_um=each.by_um / cos) for each in scenario.offset.passes)
-    return replace(scenario, offset=scenario.offset._replace(passes=passes))
 
 
 def cut_tilted(ready: Prepared, path: TiltedPath | None, scenario: Scenario, wire: WireRows) -> TiltedCut | None:

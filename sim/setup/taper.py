@@ -8,7 +8,9 @@ from typing import Any, Final, NamedTuple, get_args
 from controller.offset.shifted import Side
 from controller.taper.shifted_contour import Corner
 from controller.taper.tilted import Heights
+from parser.files import read_bytes
 from parser.findings.errors import SettingsError
+from parser.text.encoding import printable
 from parser.units import from_mm
 from sim.setup.machine.guides import ANGLE_DEG, Guides
 from sim.setup.part import SideWord
@@ -17,6 +19,13 @@ from sim.setup.toml.kinds import DEGREES_AS_RAD, MM_AS_UM, FileName, Number, One
 from sim.setup.toml.reader import Bound
 
 PLANE_MM: Final = Bound(0.0, 2000.0)
+
+
+class UpperProgram(NamedTuple):
+    """The program of an upper contour: the name of its file, and its bytes, so that it goes where its scenario goes."""
+
+    name: str
+    data: bytes
 
 
 class TaperSettings(NamedTuple):
@@ -40,7 +49,7 @@ class TaperSettings(NamedTuple):
     side: Side = Side.RIGHT
     corner: Corner = "sharp"
     program_plane_um: float = 0.0
-    upper: Path | None = None
+    upper: UpperProgram | None = None
 
 
 TAPER: Final = Section(
@@ -50,27 +59,29 @@ TAPER: Final = Section(
         Key("side", SideWord(("left", "right")), default="right"),
         Key("corner", OneOf(get_args(Corner)), default=TaperSettings().corner),
         Key("program_plane_mm", Number(PLANE_MM, "mm", MM_AS_UM), "program_plane_um", default=0.0),
-        Key("upper", FileName(), default=None),
+        Key("upper", FileName(), default=None, get=lambda taper: taper.upper and Path(taper.upper.name)),
     ),
     fills="taper",
 )
 
 
 def read_taper(content: Mapping[str, Any], where: str, folder: Path) -> TaperSettings | None:
-    """``[taper]`` of a scenario; None without it. SettingsError names file and key, and what does not go together."""
+    """``[taper]`` of a scenario; None without it.
+
+    SettingsError names file and key, and what does not go together; FileUnreadableError the program that is not there.
+    """
     if TAPER.name not in content:
         return None
-    taper = TaperSettings(**TAPER.read_in(content, where))
-    if taper.upper is not None:
-        refuse_both(taper, where)
-        taper = taper._replace(upper=folder / taper.upper)
-    return taper
-
-
-def refuse_both(taper: TaperSettings, where: str) -> None:
-    """SettingsError where an angle and an upper contour are given: each says where the upper plane is."""
-    if taper.upper is not None and taper.angle_rad is not None:
+    values = TAPER.read_in(content, where)
+    upper = values.pop("upper")
+    if upper is not None and values["angle_rad"] is not None:
         raise SettingsError("taper-angle-and-upper", where=where)
+    return TaperSettings(**values, upper=None if upper is None else read_upper(folder / upper))
+
+
+def read_upper(path: Path) -> UpperProgram:
+    """The program of an upper contour. FileUnreadableError where there is no such file."""
+    return UpperProgram(printable(path.name), read_bytes(path))
 
 
 def heights_of(taper: TaperSettings, guides: Guides, thickness_mm: float) -> Heights:

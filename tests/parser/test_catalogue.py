@@ -124,6 +124,7 @@ VALUES: dict[str, dict[str, Value]] = {
     "3B706": {"lower_mm": 10.0, "upper_mm": 0.1, "more": 0},
     "3B707": {},
     "3B708": {"offset_mm": 0.1, "off": 15.5, "needed_mm": 0.1155},
+    "3B709": {"z_mm": 40.0},
     "3B710": {},
     "GEC401": {"call": "GT_ZeroPos(1)", "answer": 1, "function": "GT_ZeroPos", "then": "GT_LnXY(30000.0, 0.0)"},
     "GEC402": {"axis": 1, "side": "limit-negative", "t_s": 16.45},

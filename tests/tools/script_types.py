@@ -29,6 +29,7 @@ from sim.show.panel_page.model import PanelEntry
 from sim.show.replay.model import ReplayDocument
 from sim.show.replay.sparks import SparkTapeEntry
 from sim.show.report_page.tables import TableDataEntry
+from sim.show.report_page.walls import WallsEntry
 from sim.teach.handins import HandInDocument
 
 ROOT = Path(__file__).parents[2]
@@ -38,6 +39,7 @@ DOCUMENTS: dict[Path, Sequence[type]] = {
     SHOW / "replay" / "assets" / "document.js": [ReplayDocument],
     SHOW / "replay" / "assets" / "sparks.js": [SparkTapeEntry],
     SHOW / "report_page" / "assets" / "data.js": [TableDataEntry],
+    SHOW / "report_page" / "assets" / "walls.js": [WallsEntry],
     SHOW / "index_page" / "assets" / "data.js": [IndexEntry],
     SHOW / "drill_page" / "assets" / "data.js": [DrillsEntry],
     SHOW / "lesson_page" / "assets" / "data.js": [LessonEntry, HandInDocument],

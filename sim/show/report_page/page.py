@@ -15,7 +15,7 @@ from markupsafe import Markup
 from parser.dialect.reader import OwnDialect
 from parser.findings.catalogue import LANGUAGES, Bilingual
 from parser.program import Program, own_dialect_text
-from parser.text.encoding import encode_text
+from parser.text.encoding import decode_text, encode_text
 from sim.base.workers.rounds import Maker, versions
 from sim.cut.pieces.pieces import Pieces
 from sim.run.dryrun import DryRun
@@ -48,6 +48,7 @@ from sim.show.report_page.results import (
     loss_table,
     pass_table,
     spark_tables,
+    taper_tables,
     technology_table,
 )
 from sim.show.report_page.sheet import MOST_THREADS, sheet_of, thread_table
@@ -60,6 +61,7 @@ from sim.show.report_page.tables import (
     worst_table,
     yes_or_no,
 )
+from sim.show.report_page.walls import walls_entry
 from sim.show.texts import bilingual
 from sim.show.texts.phrases import machine_name, same
 
@@ -182,6 +184,7 @@ def reproduction(run: DryRun) -> Reproduction:
             ("scenario.toml", toml_text(scenario_sections(scenario))),
             (MACHINE_FILE, toml_text(machine_sections(scenario.machine))),
             *_technology(scenario),
+            *_upper(scenario),
             *_own_dialect(scenario),
         ),
         versions=versions(),
@@ -192,6 +195,12 @@ def _technology(scenario: Scenario) -> tuple[tuple[str, str], ...]:
     """The file of the technology, where there is one."""
     technology = scenario.technology
     return () if technology is None else ((TECHNOLOGY_FILE, toml_text(technology_sections(technology))),)
+
+
+def _upper(scenario: Scenario) -> tuple[tuple[str, str], ...]:
+    """The program of an upper contour, where there is one."""
+    upper = None if scenario.taper is None else scenario.taper.upper
+    return () if upper is None else ((upper.name, decode_text(upper.data)[0]),)
 
 
 def _own_dialect(scenario: Scenario) -> tuple[tuple[str, str], ...]:
@@ -252,6 +261,7 @@ def report_page(
         groups=setting_groups(run.scenario, run.program),
         has_trace=has_trace,
         has_panel=has_panel(run),
+        walls=walls_entry(run.tilted),
         machine=machine_name(run.scenario.machine),
         reproduction=reproduction(run),
         dark_pictures=_recoloured(DARK),
@@ -270,6 +280,7 @@ def _tables(run: DryRun, report: ReportDocument) -> list[ReportTable]:
         cause_table(run, report),
         limit_table(run, report),
         loss_table(run, report),
+        *taper_tables(report),
         *spark_tables(run, report),
         *([piece_table(remains["pieces"], names), *size_tables(remains["sizes"], names)] if remains else []),
         *([worst_table(drawing["worst"], names), corner_table(drawing["unreachable"], names)] if drawing else []),

@@ -22,6 +22,7 @@ from sim.show.report_page.tables import (
     reached,
     timed,
     worded,
+    yes_or_no,
 )
 from sim.show.spark_rows import event_words
 from sim.show.texts import bilingual
@@ -245,6 +246,59 @@ def spark_tables(run: DryRun, report: ReportDocument) -> list[ReportTable]:
                 millimetres("at-y", column_of(spark["marks"], "y_um")),
                 micrometres("depth", column_of(spark["marks"], "depth_um"), 1),
                 micrometres("depth-within", column_of(spark["marks"], "within_um"), 1),
+            ),
+        ),
+    ]
+
+
+def taper_tables(report: ReportDocument) -> list[ReportTable]:
+    """The cut of a wire that leans: its figures, its sections and its pieces; none of an upright one."""
+    taper = report["taper"]
+    if taper is None:
+        return []
+    sections, pieces = taper["sections"], taper["pieces"]
+    boxes = column_of(sections, "box_mm")
+    return [
+        ReportTable(
+            "taper",
+            (
+                Column(bilingual("report.taper-angle"), [taper["angle_deg"]], "number", "°", 1.0, 3),
+                Column(bilingual("report.lean-most"), [taper["lean_most_deg"]], "number", "°", 1.0, 3),
+                millimetres("uv-walls", [taper["uv_most_um"]["side"]]),
+                millimetres("uv-most", [taper["uv_most_um"]["corner"]]),
+                Column(
+                    bilingual("report.volume-programmed"), [taper["volume_mm3"]["programmed"]], "number", "mm³", 1.0, 2
+                ),
+                Column(bilingual("report.volume-pieces"), [taper["volume_mm3"]["piece"]], "number", "mm³", 1.0, 2),
+                yes_or_no("guides-assumed", [taper["guides_assumed"]]),
+            ),
+        ),
+        ReportTable(
+            "sections",
+            (
+                Column(bilingual("report.section-height"), column_of(sections, "z_mm"), "number", "mm", 1.0, 3),
+                Column(bilingual("report.section-width"), [box[0] for box in boxes], "number", "mm", 1.0, 3),
+                Column(bilingual("report.section-depth"), [box[1] for box in boxes], "number", "mm", 1.0, 3),
+                Column(
+                    bilingual("report.area-programmed"),
+                    column_of(sections, "programmed_area_mm2"),
+                    "number",
+                    "mm²",
+                    1.0,
+                    2,
+                ),
+                Column(bilingual("report.area-pieces"), column_of(sections, "piece_area_mm2"), "number", "mm²", 1.0, 2),
+                micrometres("off-wall", column_of(sections, "max_deviation_um")),
+            ),
+        ),
+        ReportTable(
+            "solids",
+            (
+                worded("solid", column_of(pieces, "kind")),
+                Column(bilingual("report.volume"), column_of(pieces, "volume_mm3"), "number", "mm³", 1.0, 2),
+                Column(bilingual("report.mass"), column_of(pieces, "mass_g"), "number", "g", 1.0, 1),
+                worded("larger", column_of(pieces, "larger")),
+                yes_or_no("falls", column_of(pieces, "drops")),
             ),
         ),
     ]

@@ -5,6 +5,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
+from controller.taper.tilted import TiltedPath
 from parser.findings.catalogue import Language
 from parser.findings.findings import Finding
 from parser.geometry.curves import Floats
@@ -15,6 +16,7 @@ from parser.units import from_mm, mm
 from sim.check.compensation.check import compensation_of, is_known
 from sim.check.offset import Offsetting
 from sim.run.findings import outcome
+from sim.run.lean import leaning_offset, tilted_path, with_upper
 from sim.run.prepare import checked_for, prepare
 from sim.setup.scenario import Scenario
 from sim.show.draw import style
@@ -66,6 +68,8 @@ class Programmed(NamedTuple):
         What the controller's compensation made of it; None where it runs as written.
     findings
         Of the check that every run begins with.
+    tilt
+        The way of a wire that leans; None of an upright one.
     is_contour
         Whether it is the contour alone: it compensates by what nobody tells, so its wire runs nobody knows where.
     """
@@ -74,6 +78,7 @@ class Programmed(NamedTuple):
     scenario: Scenario
     offset: Offsetting | None
     findings: tuple[Finding, ...]
+    tilt: TiltedPath | None = None
     is_contour: bool = False
 
 
@@ -86,8 +91,10 @@ def programmed(program: Program, scenario: Scenario) -> Programmed:
     if compensation is not None and not is_known(compensation):
         checked, _ = checked_for(program, scenario)
         return Programmed(program, scenario, None, checked.findings, is_contour=True)
-    ready = prepare(program, scenario)
-    return Programmed(ready.program, scenario, ready.offset, ready.findings)
+    program = with_upper(program, scenario)
+    ready = prepare(program, leaning_offset(scenario))
+    tilt = tilted_path(ready, program, scenario)
+    return Programmed(ready.program, scenario, ready.offset, ready.findings, tilt)
 
 
 def draw_path(sheet: Sheet[AnyCanvas], path: Programmed) -> AnyCanvas:
@@ -112,6 +119,7 @@ def cut_of_path(path: Programmed, say: Words) -> Cut:
         bodies=bodies_of(scenario),
         findings=path.findings,
         travel_um=travel_um(toolpath, scenario),
+        faces=None if path.tilt is None else path.tilt.faces,
     )
 
 

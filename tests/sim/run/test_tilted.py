@@ -1,0 +1,269 @@
+"""Runs of a wire that leans: what the report says, what is wrong, and what of an upright run stays as it is."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from parser.findings.errors import ProgramError, SettingsError
+from parser.program import load_program
+from sim.base.progress import silent
+from sim.run.dryrun import DryRun
+from sim.run.report.document import build_report, report_text
+from sim.run.running import dry_run
+from sim.setup.machine.guides import Guides
+from sim.setup.part import SIDES
+from sim.setup.scenario import load_scenario
+from sim.setup.taper import TaperSettings, UpperProgram
+from sim.setup.wire import DEFAULT_WIRE
+
+PUNCH = b"""B0B5000B5000GYL2
+B10000B0B10000GXL1
+B0B20000B20000GYL2
+B20000B0B20000GXL3
+B0B20000B20000GYL4
+B10000B0B10000GXL1
+B0B5000B5000GYL4
+DD
+"""
+UPPER = PUNCH.replace(b"B20000", b"B16000").replace(b"B10000", b"B8000")
+RAD = 0.017453292519943295
+Run = Callable[..., DryRun]
+
+
+@pytest.fixture
+def run(tmp_path: Path) -> Run:
+    def of(program: bytes = PUNCH, name: str = "part.3b", **settings: object) -> DryRun:
+        path = tmp_path / name
+        path.write_bytes(program)
+        scenario = replace(load_scenario(path), trace_spacing_um=50.0, **settings)  # type: ignore[arg-type]
+        return dry_run(load_program(program, name, scenario.choices), scenario, silent)
+
+    return of
+
+
+def angle(degrees: float, **others: object) -> TaperSettings:
+    return TaperSettings(angle_rad=degrees * RAD, **others)  # type: ignore[arg-type]
+
+
+def above(program: bytes) -> TaperSettings:
+    """The contour of another program at the top of the work."""
+    return TaperSettings(upper=UpperProgram("upper.3b", program))
+
+
+def codes(of: DryRun) -> list[str]:
+    return [finding.code for finding in of.findings]
+
+
+def test_a_sound_program_is_silent_and_its_lean_is_checked(run: Run) -> None:
+    done = run(taper=angle(3.0), kerf=True)
+    assert codes(done) == []
+    assert [state.state for state in done.coverage.checks if state.name == "check-taper"] == ["complete"]
+    taper = build_report(done)["taper"]
+    assert taper is not None
+    assert taper["uv_most_um"] == {"side": 10481.555857, "corner": 14823.158447}
+    assert taper["volume_mm3"]["programmed"] == 19588.472302
+    assert taper["guides_assumed"]
+    assert all(section["max_deviation_um"] < 3.0 for section in taper["sections"])
+
+
+def test_the_piece_is_what_the_kerf_leaves_of_each_height(run: Run) -> None:
+    done = run(taper=angle(3.0), kerf=True)
+    assert done.tilted is not None
+    reach = done.scenario.wire.reach_um / 0.9986295
+    for section in done.tilted.sections:
+        side_mm = 1e-3 * (float((section.high_um - section.low_um)[0]) - 2.0 * reach)
+        assert section.piece_mm2 == pytest.approx(side_mm**2, abs=0.05)
+    (solid,) = done.tilted.solids
+    assert (solid.kind, solid.larger, solid.drops) == ("part", "top", False)
+    sides = [20.0 - 2e-3 * reach + by for by in (0.0, 4.192622)]
+    frustum = 40.0 / 3.0 * (sides[0] ** 2 + sides[1] ** 2 + sides[0] * sides[1])
+    assert solid.volume_mm3 == pytest.approx(frustum, rel=2e-4)
+
+
+def test_an_angle_of_0_changes_no_byte(run: Run) -> None:
+    plain, upright = (report_text(build_report(run(kerf=True, taper=taper))) for taper in (None, angle(0.0)))
+    assert plain == upright
+    assert '"taper": null' in plain
+
+
+def test_an_offset_is_divided_by_the_cosine(run: Run) -> None:
+    text = (
+        b"H001=100\nG92 X0 Y0\nG90\nG52 A10. G42 G01 X0 Y5000 H001\n"
+        b"X10000 Y5000\nY25000\nX-10000\nY5000\nX0\nG50 G40 X0 Y0\nM02\n"
+    )
+    done = run(text, "part.iso", dialect="skd2")
+    assert float(done.toolpath.end_um[1, 0]) == pytest.approx(10_000.0 + 100.0 / 0.984807753, abs=1e-3)
+    assert [code for code in codes(done) if not code.startswith("ISO1")] == []
+
+
+def test_a_header_whose_offset_was_not_widened_is_told(run: Run) -> None:
+    head = b"CAXAWEDM - Version 2.0, Name: part.3b\nConner R= 0.00000, Offset F= 0.10000, Length= 90.000 mm\n"
+    done = run(head + PUNCH, taper=angle(10.0))
+    assert "3B708" in codes(done)
+    (found,) = (finding for finding in done.findings if finding.code == "3B708")
+    assert found.values["off"] == pytest.approx(100.0 * (1.0 / 0.984807753 - 1.0), abs=1e-4)
+    assert "3B708" not in codes(run(head + PUNCH, taper=angle(3.0)))
+
+
+@pytest.mark.parametrize(
+    ("code", "settings"),
+    [
+        ("3B702", {"guides": Guides(travel_u_um=20_000.0, travel_v_um=29_000.0)}),
+        ("3B703", {"guides": Guides(most_rad=4.0 * RAD)}),
+        ("3B710", {"guides": Guides(travel_u_um=0.0, travel_v_um=0.0)}),
+    ],
+)
+def test_what_the_machine_does_not_reach_is_told(run: Run, code: str, settings: dict[str, object]) -> None:
+    assert code in codes(run(taper=angle(3.0), past_stop=True, **settings))
+
+
+def test_a_lower_guide_beyond_the_travel_is_told_where_the_program_is_within(run: Run) -> None:
+    # The program reaches 2 mm from the end of the travel, the lower guide 3.144 mm farther.
+    outward = run(taper=angle(3.0, side=SIDES["left"]), start_mm=(12.0, 100.0))
+    (found,) = (finding for finding in outward.findings if finding.code == "3B704")
+    assert found.values["by_mm"] == pytest.approx(1.144467, abs=1e-6)
+    assert codes(run(taper=angle(3.0), start_mm=(12.0, 100.0))) == []
+
+
+def test_sharp_corners_need_more_travel_than_walls(run: Run) -> None:
+    guides = Guides(travel_u_um=20_970.0, travel_v_um=20_970.0, most_rad=4.23 * RAD)
+    assert codes(run(taper=angle(3.0), guides=guides)) == ["3B703"]
+    assert codes(run(taper=angle(3.0, corner="cone"), guides=guides)) == []
+
+
+def test_a_fillet_that_turns_over_names_the_height(run: Run) -> None:
+    text = b"""B0B5000B5000GYL2
+B8000B0B8000GXL1
+B0B2000B2000GYNR4
+B0B16000B16000GYL2
+B2000B0B2000GXNR1
+B16000B0B16000GXL3
+B0B2000B2000GYNR2
+B0B16000B16000GYL4
+B2000B0B2000GXNR3
+B8000B0B8000GXL1
+B0B5000B5000GYL4
+DD
+"""
+    inward = run(text, taper=angle(3.0, side=SIDES["left"]))
+    (found,) = (finding for finding in inward.findings if finding.code == "3B701")
+    assert found.values["z_mm"] == pytest.approx(38.1623, abs=1e-3)
+    assert codes(run(text, taper=angle(3.0))) == []
+
+
+NECK = b"""B0B5000B5000GYL2
+B9500B0B9500GXL1
+B0B5000B5000GYL2
+B3000B0B3000GXL3
+B0B5000B5000GYL2
+B7000B0B7000GXL1
+B0B4000B4000GYL4
+B3000B0B3000GXL3
+B0B5000B5000GYL4
+B8500B0B8500GXL1
+B0B19000B19000GYL2
+B38000B0B38000GXL3
+B0B20000B20000GYL4
+B19000B0B19000GXL1
+B0B5000B5000GYL4
+DD
+"""
+
+
+def test_a_neck_whose_walls_meet_above_is_told(run: Run) -> None:
+    # A neck 1 mm wide into a wide pocket: its walls move by 40 mm tan T towards each other, 0.349 and 0.698 mm.
+    assert codes(run(NECK, taper=angle(0.5))) == []
+    narrow = run(NECK, taper=angle(1.0))
+    (found,) = narrow.findings
+    assert (found.code, found.values["z_mm"]) == ("3B709", 40.0)
+
+
+def test_two_programs_are_run_block_by_block(run: Run) -> None:
+    done = run(taper=above(UPPER), kerf=True)
+    taper = build_report(done)["taper"]
+    assert taper is not None
+    assert (codes(done), taper["angle_deg"]) == ([], None)
+    assert taper["sections"][4]["box_mm"] == [16.0, 16.0]
+    assert taper["volume_mm3"]["programmed"] == pytest.approx(40.0 / 3.0 * (400.0 + 256.0 + 320.0), abs=1e-3)
+
+
+ISO = b"G92 X0 Y0\nG90\nG01 X0 Y5000\nX5000 Y5000\nX0 Y0\nM02\n"
+
+
+@pytest.mark.parametrize(
+    ("lower", "upper", "what"),
+    [
+        (PUNCH, UPPER.replace(b"B8000B0B8000GXL1\nB0B16000", b"B0B16000", 1), "pair-counts"),
+        (ISO, ISO.replace(b"G01 X0 Y5000", b"G00 X0 Y5000").replace(b"X5000", b"G01 X5000"), "pair-jumps"),
+    ],
+)
+def test_contours_that_do_not_match_are_refused(run: Run, lower: bytes, upper: bytes, what: str) -> None:
+    with pytest.raises(ProgramError) as refused:
+        run(lower, taper=above(upper))
+    assert (refused.value.finding.code, refused.value.finding.values["what"]) == ("3B705", what)
+
+
+def test_contours_that_are_matched_a_block_off_are_told(run: Run) -> None:
+    lines = UPPER.splitlines()
+    upper = b"\n".join([*lines[:2], b"B0B100B100GYL2", b"B0B15900B15900GYL2", *lines[3:]])
+    lower = PUNCH.replace(b"B10000B0B10000GXL1\nB0B5000", b"B9900B0B9900GXL1\nB100B0B100GXL1\nB0B5000")
+    assert "3B706" in codes(run(lower, taper=above(upper)))
+
+
+def test_what_does_not_go_together_is_refused(run: Run) -> None:
+    leaning = b"G92 X0 Y0\nG90\nG51 A1. G01 X0 Y5000\nX5000 Y5000\nG50 X0 Y0\nM02\n"
+    with pytest.raises(SettingsError, match="leans the wire by itself"):
+        run(leaning, "part.iso", taper=angle(3.0))
+    with pytest.raises(SettingsError, match="above the work"):
+        run(taper=angle(3.0, program_plane_um=50_000.0))
+
+
+def test_a_lag_bows_the_wire_back_at_each_height(run: Run) -> None:
+    straight, bowed = (run(taper=angle(3.0), kerf=True, wire=replace(DEFAULT_WIRE, lag=lag)) for lag in (0.0, 300.0))
+    assert straight.tilted is not None
+    assert bowed.tilted is not None
+    for one, other in zip(straight.tilted.sections, bowed.tilted.sections, strict=True):
+        assert one.off_um == other.off_um
+        # Each of the four corners is cut off by the lag, inside of the wire's way.
+        assert 0.01 < (one.piece_mm2 or 0.0) - (other.piece_mm2 or 0.0) < 0.2
+
+
+def test_backlash_of_the_head_shows_at_the_top_most(run: Run) -> None:
+    free, loose = (run(taper=angle(3.0), guides=Guides(backlash_um=(by, by))) for by in (0.0, 40.0))
+    assert free.tilted is not None
+    assert loose.tilted is not None
+    by = [other.off_um - one.off_um for one, other in zip(free.tilted.sections, loose.tilted.sections, strict=True)]
+    assert by[0] < by[2] < by[4]
+
+
+def test_scenario_files_say_it_and_are_written_again(tmp_path: Path) -> None:
+    (tmp_path / "program.3b").write_bytes(PUNCH)
+    (tmp_path / "scenario.toml").write_text(
+        '[taper]\nangle_deg = 2.5\nside = "left"\ncorner = "cone"\nprogram_plane_mm = 5\n'
+        "[guides]\nlower_guide_mm = 30\nupper_guide_mm = 50\ntravel_u_mm = 20\nmass_u_kg = 9\nmass_v_kg = 4\n"
+    )
+    scenario = load_scenario(tmp_path)
+    assert scenario.taper is not None
+    assert scenario.taper.angle_rad == pytest.approx(2.5 * RAD)
+    assert (scenario.taper.side, scenario.taper.corner) == (SIDES["left"], "cone")
+    assert scenario.heights == (40_000.0, 5000.0, -30_000.0, 90_000.0)
+    head = scenario.known_guides.head(scenario.machine.table)
+    assert (head.moved_kg, head.travel_x_mm) == ((9.0, 4.0), 20.0)
+
+
+@pytest.mark.parametrize(
+    ("text", "complaint"),
+    [
+        ('[taper]\nangle_deg = 3\nupper = "upper.3b"\n', "an angle and an upper program"),
+        ("[taper]\nangle_deg = 70\n", "angle_deg"),
+        ("[guides]\nmass_u_kg = 3\n", "masses of both U and V"),
+        ("[guides]\nmass_u_kg = 3\nmass_v_kg = 4\n", "masses of both U and V"),
+    ],
+)
+def test_wrong_keys_are_told(tmp_path: Path, text: str, complaint: str) -> None:
+    (tmp_path / "program.3b").write_bytes(PUNCH)
+    (tmp_path / "scenario.toml").write_text(text)
+    with pytest.raises(SettingsError, match=complaint):
+        load_scenario(tmp_path)
