@@ -4,7 +4,7 @@ The two planes of a tilted wire are matched block by block. So, other than in th
 vanishes here: one that turns over stays, and is found by the share of its distance at which it comes to nothing.
 
 Corners follow the rule of a Chinese control (EDM_NC, g5152.cpp, 2014): offset lines are extended to where they meet;
-beyond a turn of 145° an arc goes round the corner. With constant taper (恒锥度) an arc goes round each outer corner.
+beyond a turn of 145° an arc goes round the corner. With constant taper an arc goes round each outer corner.
 """
 
 from typing import Final, Literal, NamedTuple
@@ -15,7 +15,7 @@ from parser.geometry.along import directions, to_left
 from parser.geometry.curves import Bools, Curves, Floats, Ints, curves_between
 
 Corner = Literal["sharp", "cone"]
-"""``sharp``: both planes keep the corner (尖锥度). ``cone``: an arc goes round it in the outer plane (恒锥度)."""
+"""``sharp``: both planes keep the corner. ``cone``: an arc goes round it in the outer plane."""
 
 SHARPEST_RAD: Final = np.radians(145.0)
 SMOOTH_RAD: Final = 1e-3

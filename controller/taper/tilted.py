@@ -23,6 +23,7 @@ _SAMPLES: Final = 33
 _SAGITTA_UM: Final = 0.02
 """Of chords that stand for what is no arc any more."""
 _SAME_RAD: Final = 1e-9
+_NOTHING_UM: Final = 1e-6
 
 
 class Heights(NamedTuple):
@@ -312,7 +313,9 @@ def _section(ruled: Ruled, z_um: float) -> tuple[Curves, Ints]:
     start, end = (ruled.places(row, (number + by) / count[row], z_um) for by in (0, 1))
     sweep = np.where(alike | one_stands, np.where(lower.is_arc, lower.sweep_rad, upper.sweep_rad), 0.0)
     low, high = (np.where(of.is_arc[:, None], of.center_um, of.start_um) for of in (lower, upper))
-    made = curves_between(start, end, (low + share * (high - low))[row], sweep[row])
+    center = (low + share * (high - low))[row]
+    stands = np.hypot(*(start - center).T) < _NOTHING_UM
+    made = curves_between(start, end, center, np.where(stands, 0.0, sweep[row]))
     made.kind[(lower.kind == CurveKind.JUMP)[row]] = CurveKind.JUMP
     return made, row
 

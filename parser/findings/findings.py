@@ -188,6 +188,11 @@ class WithoutOffset(Fact):
 
 
 @dataclass(frozen=True, slots=True)
+class Leans(Fact):
+    """The wire leans, and nobody says how high the work is."""
+
+
+@dataclass(frozen=True, slots=True)
 class OfAddedOffset(Fact):
     """It tells what the offset of the program's controller does; nothing where that adds none."""
 

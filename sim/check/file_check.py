@@ -84,10 +84,19 @@ def check_file(job: Job) -> CheckResult:
     except FileUnreadableError as error:
         return _unreadable(job, b"", none_there(error.what, job.name, job.settings.choices, error.detail), ())
     try:
-        program = load_program(data, job.name, job.settings.choices)
+        program = _with_upper(load_program(data, job.name, job.settings.choices), job.settings)
     except ProgramError as error:
         return _unreadable(job, data, error.finding, error.others)
     return without_known(check_program(program, job.settings), job.known)
+
+
+def _with_upper(program: Program, settings: CheckSettings) -> Program:
+    """The program with the upper contour that settings tell. Raises what `with_upper` does."""
+    if settings.taper is None or settings.taper.upper is None:
+        return program
+    from sim.check.lean import with_upper  # noqa: PLC0415 - most programs are upright, and start sooner without
+
+    return with_upper(program, settings.taper)
 
 
 def check_program(program: Program, settings: CheckSettings = _DEFAULTS) -> CheckResult:

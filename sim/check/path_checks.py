@@ -8,7 +8,7 @@ import numpy as np
 from controller.stepping.steps import Steps, interpolate
 from parser.dialect.reader import at_block, in_codes
 from parser.findings.codes import Check
-from parser.findings.findings import DoubtfulEnd, Finding, TooLarge, file_order, telling
+from parser.findings.findings import DoubtfulEnd, Finding, Leans, TooLarge, file_order, telling
 from parser.geometry.curves import Ints
 from parser.program import Program, parse_program
 from parser.shape.contours import Contour, contour_rows, find_contours
@@ -28,6 +28,7 @@ from sim.check.travel import rapid_findings, tab_stop_findings, too_many_steps, 
 if TYPE_CHECKING:  # most checks know no machine, and most programs do not compensate
     from sim.check.compensation.check import OwnCompensation
     from sim.check.kerf_offsets import Kerfs
+    from sim.check.lean import LeanDemands
     from sim.check.offset import Offsetting
     from sim.setup.machine.table import TableModel
 
@@ -47,8 +48,10 @@ class Demands(NamedTuple):
         Offset that the controller adds; None where nobody asked for one.
     kerfs
         How wide the wire cuts in each pass; None where no technology is known.
+    lean
+        What is known of the lean of the wire; None where no height is.
     has_heights
-        Whether heights of work and guides are known, so that somebody else looks at how the wire leans.
+        Whether heights are known to a run, which looks at how the wire leans itself.
     """
 
     table: "TableModel | None" = None
@@ -57,6 +60,7 @@ class Demands(NamedTuple):
     may_stay_open: bool = False
     added_um: float | None = None
     kerfs: "Kerfs | None" = None
+    lean: "LeanDemands | None" = None
     has_heights: bool = False
 
 
@@ -144,8 +148,11 @@ class _PathChecks:
         if self.compensation is not None:
             yield from self.compensation.findings
             yield self._state(Check.COMPENSATION, self._left_out or self._without_value)
-        if program.toolpath.leans and not demands.has_heights:
-            yield at_block(program.toolpath, program.lines, "3B707", _first_leaning(program.toolpath))
+        if demands.lean is not None:
+            yield from self._leaning(demands.lean)
+        elif program.toolpath.leans and not demands.has_heights:
+            found = at_block(program.toolpath, program.lines, "ISO601", _first_leaning(program.toolpath))
+            yield found.with_fact(Leans())
             yield CheckState(Check.TAPER, "not asked", "reason-no-height")
 
     def _misfits(self) -> Iterator[Finding]:
@@ -200,6 +207,18 @@ class _PathChecks:
             rows = _without(rows, made.findings)
             program, rows, passes = made.program, rows[made.path.source_row], made.edge_passes
         yield from gouge_findings(program, rows, passes)
+
+    def _leaning(self, lean: "LeanDemands") -> Iterator[Finding | CheckState]:
+        """Findings about the lean of the wire, and how far their check came; none of an upright one."""
+        from sim.check.lean import tilted_path  # noqa: PLC0415 - most programs are upright, and start sooner without
+        from sim.check.taper import taper_findings  # noqa: PLC0415
+
+        made = self.compensation
+        path = tilted_path(self._program, made, lean)
+        if path is not None:
+            program = self._program if made is None else made.program
+            yield from taper_findings(program, path, lean.guides, self._demands.table, self._demands.start_um)
+            yield self._state(Check.TAPER, self._left_out or self._without_value)
 
     @property
     def _without_value(self) -> str:

@@ -28,15 +28,20 @@ _HAIR_UM: Final = 1.0
 
 
 def taper_findings(
-    program: Program, path: TiltedPath, guides: Guides, table: TableModel, start_um: tuple[float, float]
+    program: Program,
+    path: TiltedPath,
+    guides: Guides,
+    table: TableModel | None = None,
+    start_um: tuple[float, float] | None = None,
 ) -> Iterator[Finding]:
     """Findings 3B701 to 3B704, 3B706 and 3B709, each at the first block that it is about, and how many more there are.
 
-    `start_um` is the place of the program's start on the table.
+    `start_um` is the place of the program's start on the table, None where no table is known.
     """
     yield from _turned(program, path)
     yield from _guides(program, path, guides)
-    yield from _travel(program, path, table, start_um)
+    if table is not None and start_um is not None:
+        yield from _travel(program, path, table, start_um)
     yield from _uneven(program, path)
     yield from _crossing(program, path)
 

@@ -12,14 +12,16 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeVar
 import click
 
 from parser.findings.errors import Message, SettingsError
-from sim.cli.spoken.values import WholeNumber
+from sim.cli.spoken.values import FilePath, WholeNumber
 from sim.setup.picks import Picks, pick_of
 from sim.setup.toml.keys import Key
 from sim.setup.toml.kinds import Lengths as OfLengths
 from sim.setup.toml.kinds import Name, Number, OneOf, Places, Text, Truth, ValueKind, Whole, Wholes
 
 if TYPE_CHECKING:
+    from controller.taper.shifted_contour import Corner
     from parser.toolpath import Point
+    from sim.setup.taper import TaperSettings
 
 
 Command = TypeVar("Command", bound=Callable[..., Any])
@@ -294,3 +296,57 @@ READ_WITH = (click.option("--dialect", type=OwnOrNamed()), UNIT)
 
 
 with_dialect = with_options(READ_WITH)
+
+
+TAPER_OPTIONS: Final = (
+    click.option("--taper", type=Angle()),
+    click.option("--taper-side", type=click.Choice(["left", "right"])),
+    click.option("--taper-corner", type=click.Choice(["sharp", "cone"])),
+    click.option("--program-plane", type=Length()),
+    click.option("--upper", type=FilePath(path_type=Path, dir_okay=False), metavar="PROGRAM"),
+)
+"""Options of a wire that leans: what they give is `TaperOptions`."""
+
+
+class TaperOptions(NamedTuple):
+    """Options of a wire that leans as given, rad and µm; None where one was left out."""
+
+    taper: float | None = None
+    taper_side: str | None = None
+    taper_corner: "Corner | None" = None
+    program_plane: float | None = None
+    upper: Path | None = None
+
+
+def taken_taper(options: dict[str, Any]) -> TaperOptions:
+    """The options of a wire that leans, which are taken out of all."""
+    return TaperOptions(*(options.pop(name) for name in TaperOptions._fields))
+
+
+def taper_of(options: TaperOptions, own: "TaperSettings | None") -> "TaperSettings | None":
+    """What is told of the lean, with options in place of a scenario's own values; None where nothing is.
+
+    SettingsError where an angle and an upper contour are given, and for a plane out of bounds; FileUnreadableError
+    where the upper program is not there.
+    """
+    if options == TaperOptions() or (own is None and options == TaperOptions(taper=0.0)):
+        return own
+    from parser.units import mm
+    from sim.setup.part import SIDES
+    from sim.setup.taper import PLANE_MM, TaperSettings, read_upper
+    from sim.setup.toml.reader import number
+
+    if options.program_plane is not None:
+        number(mm(options.program_plane), PLANE_MM, "--program-plane in mm")
+    given = {
+        "angle_rad": options.taper,
+        "side": None if options.taper_side is None else SIDES[options.taper_side],
+        "corner": options.taper_corner,
+        "program_plane_um": options.program_plane,
+        "upper": options.upper and read_upper(options.upper),
+    }
+    values: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
+    taper = (own or TaperSettings())._replace(**values)
+    if taper.upper is not None and taper.angle_rad is not None:
+        raise SettingsError("taper-angle-and-upper", where="--upper")
+    return taper

@@ -17,13 +17,15 @@ from parser.findings.errors import ProgramError, SettingsError
 from parser.units import mm
 from sim.cli.options import (
     READ_WITH,
-    Angle,
-    Length,
+    TAPER_OPTIONS,
     Lengths,
     OrRegister,
+    TaperOptions,
     offsets_of,
     setting_options,
     taken_settings,
+    taken_taper,
+    taper_of,
     with_options,
 )
 from sim.cli.spoken import spoken, words
@@ -51,12 +53,10 @@ from sim.show.terminal.streams import outlet
 from sim.show.terminal.wrap import width_of
 
 if TYPE_CHECKING:
-    from controller.taper.shifted_contour import Corner
     from parser.dialect.reader import ChosenDialect
     from sim.cli.options import RegisterSet
     from sim.setup.machine.table import TableEngine
     from sim.setup.scenario import Scenario
-    from sim.setup.taper import TaperSettings
 
 
 Command = TypeVar("Command", bound=Callable[..., Any])
@@ -69,14 +69,6 @@ ENGINE_OPTION = click.option(
 
 COMPARISON: Final = (LAYER, TOLERANCE, FIT, CORNERS)
 """How a cut is held against a drawing; ``--gap`` is the spark gap of a run."""
-TAPER_OPTIONS = (
-    click.option("--taper", type=Angle()),
-    click.option("--taper-side", type=click.Choice(["left", "right"])),
-    click.option("--taper-corner", type=click.Choice(["sharp", "cone"])),
-    click.option("--program-plane", type=Length()),
-    click.option("--upper", type=FilePath(path_type=Path, dir_okay=False), metavar="PROGRAM"),
-)
-"""Options of a wire that leans: `TaperOptions` has what they give."""
 _OPTIONS = (
     *READ_WITH,
     click.option("--machine", metavar="NAME|FILE", shell_complete=offer_machines),
@@ -141,19 +133,15 @@ class Overrides(NamedTuple):
     side: str | None = None
     drawing: Path | None = None
     comparison: Mapping[str, Any] = MappingProxyType({})
-    taper: float | None = None
-    taper_side: str | None = None
-    taper_corner: "Corner | None" = None
-    program_plane: float | None = None
-    upper: Path | None = None
+    taper: TaperOptions = TaperOptions()
     sparks: bool = False
     seed: int | None = None
 
 
 def overrides_of(options: dict[str, Any]) -> Overrides:
     """The options as click hands them over."""
-    settings = taken_settings(SETTABLE.values(), options)
-    return Overrides(settings=settings, comparison=taken_settings(COMPARISON, options), **options)
+    settings, taper = taken_settings(SETTABLE.values(), options), taken_taper(options)
+    return Overrides(settings=settings, taper=taper, comparison=taken_settings(COMPARISON, options), **options)
 
 
 def overridden(path: Path, options: Overrides) -> "Scenario":
@@ -174,7 +162,7 @@ def overridden(path: Path, options: Overrides) -> "Scenario":
         scenarios.with_values(scenario, given, technology),
         offset=_offset(scenario.offset, offsets.plain, options.side),
         drawing=_drawing(scenario.drawing, options),
-        taper=_taper(scenario.taper, options),
+        taper=taper_of(options.taper, scenario.taper),
     )
     if options.sparks or options.seed is not None:
         scenario = scenarios.under_sparks(scenario, options.seed)
@@ -214,31 +202,6 @@ def _offset(offset: Offset | None, by_um: tuple[float, ...] | None, side_word: s
     if passes is None:
         raise SettingsError("side-needs-offset")
     return Offset(passes, side)
-
-
-def _taper(own: "TaperSettings | None", options: Overrides) -> "TaperSettings | None":
-    """What is told of the lean, with the options in place of its own values; None where nothing is.
-
-    SettingsError where an angle and an upper contour are given, and for a plane out of bounds.
-    """
-    from sim.setup.taper import PLANE_MM, TaperSettings, read_upper
-
-    if options.program_plane is not None:
-        number(mm(options.program_plane), PLANE_MM, "--program-plane in mm")
-    given = {
-        "angle_rad": options.taper,
-        "side": None if options.taper_side is None else SIDES[options.taper_side],
-        "corner": options.taper_corner,
-        "program_plane_um": options.program_plane,
-        "upper": options.upper and read_upper(options.upper),
-    }
-    values: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
-    if not values or (own is None and values == {"angle_rad": 0.0}):
-        return own
-    taper = (own or TaperSettings())._replace(**values)
-    if taper.upper is not None and taper.angle_rad is not None:
-        raise SettingsError("taper-angle-and-upper", where="--upper")
-    return taper
 
 
 def of_options(keys: Iterable[Key], settings: Mapping[str, Any]) -> dict[str, Any]:

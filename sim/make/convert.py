@@ -15,7 +15,7 @@ from parser.controller_words import Compensation, StepWords
 from parser.dialect.reader import Choices, Registers
 from parser.findings.codes import Severity
 from parser.findings.errors import ProgramError
-from parser.findings.findings import Finding, NotSimulated, telling
+from parser.findings.findings import Finding, Leans, NotSimulated, telling
 from parser.geometry.curves import CurveKind, Curves, Floats, Ints
 from parser.geometry.distance import distance_to_curves
 from parser.program import Program, load_program
@@ -326,7 +326,7 @@ def _beside_the_path(program: Program, checked: Checked) -> Refused | None:
         said = tuple(finding for finding, _ in telling(checked.findings, NotSimulated))
         return Refused("not-simulated", program, said, (("words", beside_text),))
     if program.toolpath.leans:
-        return Refused("leans", program, tuple(found for found in checked.findings if found.code == "3B707"))
+        return Refused("leans", program, tuple(found for found, _ in telling(checked.findings, Leans)))
     return None if checked.coverage.is_complete else Refused("incomplete", program)
 
 

@@ -6,6 +6,7 @@ What a run leaves, worked out as far as its scenario asks: kerf, pieces and size
 """
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -22,6 +23,7 @@ from parser.program import Program
 from parser.shape.contours import Contour, find_contours
 from parser.shape.passes import Pass, find_passes
 from sim.base.progress import Progress, silent
+from sim.check.lean import leaning_offset, with_upper
 from sim.check.result import CheckState
 from sim.cut.findings import missed_work_findings, obstacle_findings, piece_findings, region_finding
 from sim.cut.regions import RegionError
@@ -34,10 +36,9 @@ from sim.measure.compare.result import Comparison
 from sim.measure.kerf_fit import offset_findings, tolerance_findings
 from sim.measure.passes import PassFigures, figures_of_passes, wire_taken
 from sim.run.dryrun import DryRun, Ending, PulseSink, motion_to_end, trip_of
-from sim.run.lean import leaning_offset, tilted_path, with_upper
 from sim.run.prepare import Prepared, prepare
 from sim.run.sparks import check_states, cut_under_sparks, stop_findings, work_of
-from sim.run.tilt import cut_tilted, tilt_findings, with_tilt
+from sim.run.tilt import cut_tilted, tilt_findings, tilt_of, with_tilt
 from sim.setup.part import DrawingTarget
 from sim.setup.scenario import Scenario
 from sim.table.losses import loss_findings
@@ -140,9 +141,9 @@ def dry_run(  # noqa: PLR0913 - whom it tells
     drawing cannot be read.
     """
     progress("checks", 0, 1)
-    program, drawing = with_upper(program, scenario), drawing_of(scenario.drawing)
-    ready = prepare(program, leaning_offset(scenario))
-    tilt = tilted_path(ready, program, scenario)
+    program, drawing = with_upper(program, scenario.taper), drawing_of(scenario.drawing)
+    ready = prepare(program, replace(scenario, offset=leaning_offset(scenario.offset, scenario.taper)))
+    tilt = tilt_of(program, ready, scenario)
     progress("plan", 0, 1)
     motion, ended = motion_to_end(ready, scenario)
     along = Along(ready, motion, ended, driven(motion, log), ready.feeds, measured, tilt)

@@ -13,18 +13,27 @@ from controller.taper.tilted import TiltedPath
 from parser.dialect.reader import at_block
 from parser.findings.codes import Check
 from parser.findings.findings import Finding
+from parser.program import Program
 from parser.units import mm
+from sim.check.lean import LeanDemands, tilted_path
 from sim.check.result import CheckState
 from sim.check.taper import taper_findings
 from sim.cut.solids import TiltedCut, UprightWire, tilted_cut
 from sim.cut.wire_rows import WireRows
 from sim.run.prepare import Prepared
 from sim.setup.scenario import Scenario
+from sim.setup.taper import TaperSettings
 from sim.table.losses import loss_findings
 from sim.table.ticks import Sampling
 from sim.table.tilted import follow_tilted
 
 _MOST_OFF_UM: Final = 1.0
+
+
+def tilt_of(drawn: Program, ready: Prepared, scenario: Scenario) -> TiltedPath | None:
+    """The way of the wire of a program that is ready; None where it is upright. Raises what `tilted_path` does."""
+    demands = LeanDemands(scenario.taper or TaperSettings(), scenario.known_guides, scenario.thickness_mm)
+    return tilted_path(drawn, ready.offset, demands)
 
 
 def cut_tilted(ready: Prepared, path: TiltedPath | None, scenario: Scenario, wire: WireRows) -> TiltedCut | None:
@@ -60,15 +69,14 @@ def tilt_findings(ready: Prepared, cut: TiltedCut | None, scenario: Scenario) ->
 
 
 def _not_widened(ready: Prepared, scenario: Scenario) -> Iterator[Finding]:
-    """3B708: the path has an offset in it that nobody widened for the lean."""
+    """3B708: the path has the offset of an upright wire in it, and the wire leans."""
     program, angle_rad = ready.program, scenario.taper.angle_rad if scenario.taper is not None else None
-    header_um = program.header.get("offset_um")
-    if not angle_rad or ready.offset is not None or not isinstance(header_um, float) or header_um <= 0.0:
+    header_um, reach_um = program.header.get("offset_um"), scenario.wire.reach_um
+    if not angle_rad or ready.offset is not None or not isinstance(header_um, float):
         return
-    off_um = header_um * (1.0 / float(np.cos(angle_rad)) - 1.0)
-    if off_um > _MOST_OFF_UM:
-        needed_mm = mm(header_um + off_um)
-        values = {"offset_mm": mm(header_um), "off": off_um, "needed_mm": needed_mm}
+    needed_um = reach_um / float(np.cos(angle_rad))
+    if needed_um - header_um > _MOST_OFF_UM and abs(header_um - reach_um) < _MOST_OFF_UM:
+        values = {"offset_mm": mm(header_um), "off": needed_um - header_um, "needed_mm": mm(needed_um)}
         yield at_block(program.toolpath, program.lines, "3B708", 0, **values)
 
 

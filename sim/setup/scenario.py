@@ -8,7 +8,6 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from controller.taper.tilted import Heights
 from parser.dialect.reader import (
     Choices,
     ChosenDialect,
@@ -46,7 +45,7 @@ from sim.setup.part import (
 from sim.setup.quiz import QUIZ, Question, read_quiz
 from sim.setup.settable import INTERPOLATOR, KERF, MAY_STAY_OPEN, PAST_STOP, with_settings
 from sim.setup.spark import EVENT, SPARK, Event, Spark, read_events, read_spark
-from sim.setup.taper import TAPER, TaperSettings, heights_of, read_taper
+from sim.setup.taper import TAPER, TaperSettings, read_taper
 from sim.setup.technology import (
     Choice,
     PassTechnology,
@@ -219,11 +218,6 @@ class Scenario:
     def known_guides(self) -> Guides:
         """Guides of its own, else those of its machine, else usual ones."""
         return self.guides or self.machine.guides or Guides()
-
-    @property
-    def heights(self) -> Heights:
-        """Planes and guides of its wire. SettingsError where the program plane lies outside of the work."""
-        return heights_of(self.taper or TaperSettings(), self.known_guides, self.thickness_mm)
 
     @property
     def wire_lag_um(self) -> float:

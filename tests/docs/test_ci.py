@@ -127,7 +127,7 @@ def junit_failures(path: Path) -> list[Any]:
 
 
 OPEN = "B9900B0B9900GXL1\nB0B9900B9900GYL2\nB3000B2000B3000GXL3\nDD\n"
-TAPER = "G92 X0 Y0\nG90 G51 A1.5\nG01 X0 Y5000\nX5000 Y5000\nX5000 Y0\nX0 Y0\nG50 A0\nM02\n"
+TAPER = "G92 X0 Y0\nG90 G51\nG01 X0 Y5000\nX5000 Y5000\nX5000 Y0\nX0 Y0\nG50\nM02\n"
 FINDINGS: dict[str, Callable[[Path], Any]] = {
     "sarif": lambda path: fits_schema("sarif")(path)["runs"][0]["results"],
     "gitlab": fits_schema("gitlab"),

@@ -27,7 +27,9 @@ from parser.text.encoding import no_program
 PAGES = resources.files("parser.findings") / "pages"
 TEMPLATES = ("found", "expected", "machine", "hint")
 LINE = 110
-NO_EXAMPLE = {"3B100", "3B303", "ISO100"} | {code for code, of in CODES.items() if of.check is None}
+NO_EXAMPLE = {"3B100", "3B303", "ISO100", "3B702", "3B703", "3B705", "3B710"} | {
+    code for code, of in CODES.items() if of.check is None
+}
 
 VALUES: dict[str, dict[str, Value]] = {
     "3B100": {"what": "unreadable-file", "detail": "Permission denied", "hint": "hint-program"},
@@ -122,7 +124,6 @@ VALUES: dict[str, dict[str, Value]] = {
     "3B704": {"by_mm": 1.5, "wide_mm": 320.0, "deep_mm": 250.0},
     "3B705": {"what": "pair-counts", "lower": 8, "upper": 7, "name": "upper.3b"},
     "3B706": {"lower_mm": 10.0, "upper_mm": 0.1, "more": 0},
-    "3B707": {},
     "3B708": {"offset_mm": 0.1, "off": 15.5, "needed_mm": 0.1155},
     "3B709": {"z_mm": 40.0},
     "3B710": {},
@@ -200,6 +201,7 @@ VALUES: dict[str, dict[str, Value]] = {
     "ISO307": {"number": 2, "other": 1, "by": 50.0},
     "ISO308": {"number": 2, "other": 1, "by": 190.0},
     "ISO309": {"left": 2000.0},
+    "ISO601": {},
     "ISO600": {"word": "A1.5", "more": 3},
     "PMC100": {"what": "no-motion-program", "detail": "", "hint": "hint-program"},
     "PMC101": {"text": "WHILE"},

@@ -25,7 +25,8 @@ TOLD: dict[str, list[Any]] = json.loads((CORPUS / "faults/told.json").read_text(
 _SENSES = {0: "L", 1: "NR", -1: "SR"}
 _OF_A_RUN = {code for code, of in CODES.items() if of.check is None}
 _ON_PAGES = {"ISO217", "ISO219", "ISO306", "ISO307", "ISO308", "ISO309", "ISO514"}  # as the examples of their pages
-_NEEDS_MORE = {"3B303"} | _OF_A_RUN  # a block that no search has found yet; what a check cannot see
+_OF_HEIGHTS = {code for code in CODES if code.startswith("3B7")}  # what a check sees that is told heights
+_NEEDS_MORE = {"3B303"} | _OF_A_RUN | _OF_HEIGHTS  # a block that no search has found yet; what a check cannot see
 
 
 def words(program: Program) -> list[str]:

@@ -20,7 +20,9 @@ from sim.setup.wire import DEFAULT_WIRE, DIAMETER, SPARK_GAP
 
 if TYPE_CHECKING:
     from sim.check.kerf_offsets import Kerfs
+    from sim.check.lean import LeanDemands
     from sim.setup.machine.machine import Machine
+    from sim.setup.taper import TaperSettings
     from sim.setup.technology import Technology
 
 
@@ -41,6 +43,8 @@ class CheckSettings:
     technology, material, thickness_mm
         What the wire does, in which material, the only one that it knows where None, and how high the work is, which
         may be None where it knows one height.
+    taper
+        What is told of the lean of the wire beside the programs.
     may_stay_open
         Whether contours may end away from their own path.
     select, ignore
@@ -66,6 +70,7 @@ class CheckSettings:
     technology: "Technology | None" = None
     material: str | None = None
     thickness_mm: float | None = None
+    taper: "TaperSettings | None" = None
     may_stay_open: bool = False
     select: tuple[str, ...] = ()
     ignore: tuple[str, ...] = ()
@@ -97,7 +102,19 @@ class CheckSettings:
         start_um = start and (from_mm(start[0]), from_mm(start[1]))
         kerfs = self._kerfs
         offset_um = self._offset_um if kerfs is None else kerfs.reach(1).um
-        return Demands(table, start_um, offset_um, self.may_stay_open, kerfs=kerfs)
+        return Demands(table, start_um, offset_um, self.may_stay_open, kerfs=kerfs, lean=self._lean)
+
+    @property
+    def _lean(self) -> "LeanDemands | None":
+        """What is known of the lean; None where nobody says how high the work is."""
+        if self.thickness_mm is None:
+            return None
+        from sim.check.lean import LeanDemands  # noqa: PLC0415 - most checks know no height
+        from sim.setup.machine.guides import Guides  # noqa: PLC0415
+        from sim.setup.taper import TaperSettings  # noqa: PLC0415
+
+        guides = None if self.machine is None else self.machine.guides
+        return LeanDemands(self.taper or TaperSettings(), guides or Guides(), self.thickness_mm)
 
     @property
     def _kerfs(self) -> "Kerfs | None":

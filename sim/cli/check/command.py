@@ -9,7 +9,7 @@ import click
 from parser.findings.errors import FileUnreadableError, Message
 from sim.check.settings.read import FAIL_ON
 from sim.cli.check.outputs import Output
-from sim.cli.options import UNIT, OwnOrNamed, RegisterValue, setting_options, with_options
+from sim.cli.options import TAPER_OPTIONS, UNIT, OwnOrNamed, RegisterValue, setting_options, with_options
 from sim.cli.spoken import Spoken, spoken, words
 from sim.cli.spoken.values import FilePath, offer_files, offer_machines
 from sim.cli.spread import Spread, pool_of, spread_options
@@ -94,6 +94,7 @@ _DEMANDS = (
     *setting_options((DIAMETER, SPARK_GAP)),
     click.option("--technology", type=FilePath(path_type=Path, dir_okay=False), metavar="FILE.toml"),
     *setting_options((MATERIAL, THICKNESS)),
+    *TAPER_OPTIONS,
     click.option("--open", "may_stay_open", is_flag=True),
 )
 _ISO = (

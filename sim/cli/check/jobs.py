@@ -37,7 +37,7 @@ from sim.check.settings.read import (
     pattern_list,
 )
 from sim.check.settings.search import SettingsSearch
-from sim.cli.options import taken_settings
+from sim.cli.options import taken_settings, taken_taper, taper_of
 from sim.setup.dialect import chosen_dialect
 from sim.setup.part import MATERIAL, THICKNESS
 from sim.setup.toml.keys import Key
@@ -48,6 +48,7 @@ if TYPE_CHECKING:
     from sim.check.silence import Baseline
     from sim.cli.options import RegisterSet
     from sim.setup.machine.machine import Machine
+    from sim.setup.taper import TaperSettings
 
 
 STDIN = "-"
@@ -69,6 +70,7 @@ class CheckOptions(NamedTuple):
     technology: Path | None
     work: Mapping[str, Any]
     lengths: Mapping[str, float]
+    taper: "TaperSettings | None"
     may_stay_open: bool
     dialect: ChosenDialect | None
     unit: str | None
@@ -82,7 +84,7 @@ class CheckOptions(NamedTuple):
 
 
 NO_OPTIONS: Final = CheckOptions(
-    *(None, None, None, None, None, {}, {}, False, None, None, (), (), (), None),
+    *(None, None, None, None, None, {}, {}, None, False, None, None, (), (), (), None),
     no_config=False,
     baseline=None,
     write_baseline=None,
@@ -95,6 +97,7 @@ def check_options_of(values: dict[str, Any]) -> CheckOptions:
     return CheckOptions(
         work=taken_settings(_OF_WORK.values(), values),
         lengths=taken_settings(WIRE_LENGTHS.values(), values),
+        taper=taper_of(taken_taper(values), None),
         **values,
     )
 
@@ -250,6 +253,8 @@ def _settings(options: CheckOptions) -> dict[str, Any]:
         given["fail_on"] = mildest_failing(options.fail_on, "--fail-on")
     given |= {field: key.of_option(lengths[key.name]) for field, key in WIRE_LENGTHS.items() if key.name in lengths}
     given |= {field: key.of_option(work[key.name]) for field, key in _OF_WORK.items() if key.name in work}
+    if options.taper is not None:
+        given["taper"] = options.taper
     if options.may_stay_open:
         given["may_stay_open"] = True
     read_with = {"dialect": options.dialect, "unit": options.unit, "registers": merged([options.offset])}

@@ -192,6 +192,7 @@ class CheckEntry(TypedDict):
             "compensation",
             "remains",
             "sparks",
+            "taper",
         ),
     ]
     state: CheckProgress

@@ -92,7 +92,7 @@ def test_a_sound_program_has_nothing_to_know() -> None:
 
 
 OPEN = "B9900B0B9900GXL1\nB5000B0B5000GXL1\nB0B9900B9900GYL2\nB3000B2000B3000GXL3\nB3000B2000B3000GXL2\nDD\n"
-TAPER = "G92 X0 Y0\nG90 G51 A1.5\nG01 X0 Y5000\nX5000 Y5000\nX5000 Y0\nX0 Y0\nG50 A0\nM02\n"
+TAPER = "G92 X0 Y0\nG90 G51\nG01 X0 Y5000\nX5000 Y5000\nX5000 Y0\nX0 Y0\nG50\nM02\n"
 
 
 @pytest.mark.parametrize(("name", "text"), [("a.3b", OPEN), ("a.iso", TAPER)])

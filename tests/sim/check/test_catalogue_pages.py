@@ -8,13 +8,16 @@ from sim.check.file_check import Job, check_file
 from sim.check.result import CheckResult
 from sim.check.settings import CheckSettings
 from sim.setup.machine.machine import load_machine
+from sim.setup.part import SIDES
+from sim.setup.taper import TaperSettings, angle_of
 from sim.show.findings.pages import list_text, page_text, severity_word
 from sim.show.terminal.markdown import documents
 from sim.show.texts import Words
 
 OF_A_RUN = {code for code, of in CODES.items() if of.check is None}
-WITHOUT_EXAMPLE = {"3B100", "3B303", "ISO100"} | OF_A_RUN
-"""No program; no arc known that misses so far on the right axis; what a check cannot see."""
+WITHOUT_EXAMPLE = {"3B100", "3B303", "ISO100", "3B702", "3B703", "3B705", "3B710"} | OF_A_RUN
+"""No program; no arc known that misses so far on the right axis; guides that no shipped machine has; a second program;
+what a check cannot see."""
 EXAMPLES = {code: shown for code in sorted(CODES) if (shown := example(code))}
 ALSO = {
     "3B304": {"3B301"},  # the contour that it is a suspect of
@@ -34,8 +37,16 @@ def checked(text: str, options: tuple[str, ...]) -> CheckResult:
     settings = CheckSettings(
         machine=load_machine(given["--machine"]) if "--machine" in given else None,
         wire_diameter_um=180.0 if "--wire-diameter" in given else None,
+        thickness_mm=40.0 if "--height" in given else None,
+        taper=_taper(given),
     )
     return check_file(Job("example.3b", text.lstrip("\n").encode(), settings))
+
+
+def _taper(given: dict[str, str]) -> TaperSettings | None:
+    if "--taper" not in given:
+        return None
+    return TaperSettings(angle_of(given["--taper"], "--taper"), SIDES[given.get("--taper-side", "right")])
 
 
 def test_every_finding_that_a_program_can_show_has_an_example() -> None:
@@ -67,7 +78,7 @@ def test_pages_call_severities_what_a_check_calls_them(language: Language) -> No
 def test_the_list_has_every_code_with_its_title_below_its_layer_then_the_documents(language: Language) -> None:
     *layers, named = [part.splitlines()[2:-1] for part in list_text(language).split("\n\n")]
     assert [{line.split()[0][:-2] for line in lines} for lines in layers] == [
-        *({f"3B{layer}"} for layer in range(1, 7)),
+        *({f"3B{layer}"} for layer in range(1, 8)),
         {"GEC4"},
         *({f"ISO{layer}"} for layer in range(1, 7)),
         {"PMC1"},

@@ -96,7 +96,7 @@ def test_a_program_that_asks_for_more_than_its_path_is_not_converted() -> None:
 
 def test_a_program_that_leans_the_wire_is_not_converted() -> None:
     made = refused(TWIN_ISO.replace("G01 X0 Y70100", "G51 A1.5 G01 X0 Y70100"), TO_3B)
-    assert (made.why, [finding.code for finding in made.findings]) == ("leans", ["3B707"])
+    assert (made.why, [finding.code for finding in made.findings]) == ("leans", ["ISO601"])
 
 
 def test_a_program_without_the_value_of_its_register_is_not_converted() -> None:

@@ -15,7 +15,7 @@ from sim.run.running import dry_run
 from sim.setup.machine.guides import Guides
 from sim.setup.part import SIDES
 from sim.setup.scenario import load_scenario
-from sim.setup.taper import TaperSettings, UpperProgram
+from sim.setup.taper import TaperSettings, UpperProgram, heights_of
 from sim.setup.wire import DEFAULT_WIRE
 
 PUNCH = b"""B0B5000B5000GYL2
@@ -248,7 +248,8 @@ def test_scenario_files_say_it_and_are_written_again(tmp_path: Path) -> None:
     assert scenario.taper is not None
     assert scenario.taper.angle_rad == pytest.approx(2.5 * RAD)
     assert (scenario.taper.side, scenario.taper.corner) == (SIDES["left"], "cone")
-    assert scenario.heights == (40_000.0, 5000.0, -30_000.0, 90_000.0)
+    heights = heights_of(scenario.taper, scenario.known_guides, scenario.thickness_mm)
+    assert heights == (40_000.0, 5000.0, -30_000.0, 90_000.0)
     head = scenario.known_guides.head(scenario.machine.table)
     assert (head.moved_kg, head.travel_x_mm) == ((9.0, 4.0), 20.0)
 

@@ -341,6 +341,8 @@ def written(scenario: Scenario, folder: Path) -> Scenario:
     """The scenario of a folder with the files that the page shows."""
     (folder / "scenario.toml").write_text(toml_text(scenario_sections(scenario)), "utf-8")
     (folder / MACHINE_FILE).write_text(toml_text(machine_sections(scenario.machine)), "utf-8")
+    if scenario.taper is not None and scenario.taper.upper is not None:
+        (folder / scenario.taper.upper.name).write_bytes(scenario.taper.upper.data)
     return load_scenario(folder)
 
 

@@ -1,0 +1,88 @@
+"""How a program is to lean, before anything moves: by its own words, by what is told beside it, or by two contours."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from controller.taper.tilted import Lean, TiltedPath, between_contours, figure_lean, tilted, told_lean
+from parser.controller_words import Taper
+from parser.findings.errors import SettingsError
+from parser.geometry.curves import Floats
+from parser.program import Program, load_program, paired
+from sim.check.offset import Offsetting
+from sim.setup.machine.guides import Guides
+from sim.setup.part import Offset
+from sim.setup.taper import TaperSettings, heights_of
+
+
+class LeanDemands(NamedTuple):
+    """What is known of the lean beside a program: what is told of it, the guides, and the height of the work, mm."""
+
+    taper: TaperSettings
+    guides: Guides
+    thickness_mm: float
+
+
+def with_upper(program: Program, taper: TaperSettings | None) -> Program:
+    """The program with the upper contour that is told beside it; as it is where none is.
+
+    ProgramError where the upper one is no program, ProgramError (3B705) where their blocks do not match, SettingsError
+    where one of them leans by itself.
+    """
+    if taper is None or taper.upper is None:
+        return program
+    upper = load_program(taper.upper.data, taper.upper.name, program.choices)
+    for each in (program, upper):
+        if each.toolpath.leans:
+            raise SettingsError("taper-twice", name=each.name)
+    return paired(program, upper)
+
+
+def tilted_path(drawn: Program, made: Offsetting | None, demands: LeanDemands) -> TiltedPath | None:
+    """The way of the wire of a program; None where it is upright. `made` is what an offset made of the program.
+
+    SettingsError where program and settings both tell of the lean, where the program plane is outside of the work, and
+    where two contours are to be offset.
+    """
+    taper, contour = demands.taper, drawn.toolpath
+    angle_rad = taper.angle_rad or 0.0
+    if contour.leans and angle_rad:
+        raise SettingsError("taper-twice", name=drawn.name)
+    if not contour.leans and not angle_rad:
+        return None
+    heights = heights_of(taper, demands.guides, demands.thickness_mm)
+    toolpath = contour if made is None else made.program.toolpath
+    if contour.upper is not None:
+        if made is not None:
+            raise SettingsError("contours-not-offset", name=drawn.name)
+        return between_contours(contour, contour.upper, heights, (taper.program_plane_um, heights.work_um))
+    if contour.taper is not None:
+        return tilted(toolpath, told_lean(_as_run(contour.taper, made), toolpath), heights, taper.corner)
+    whole = figure_lean(toolpath, angle_rad, int(taper.side))
+    lean = Lean(whole.tangent * _directions(made, len(toolpath)), whole.tilts)
+    return tilted(toolpath, lean, heights, taper.corner)
+
+
+def leaning_offset(offset: Offset | None, taper: TaperSettings | None) -> Offset | None:
+    """An offset as it is in the program plane, where all contours lean by T: D / cos T (EDM_NC, g24.cpp)."""
+    angle_rad = None if taper is None else taper.angle_rad
+    if not angle_rad or offset is None:
+        return offset
+    cos = float(np.cos(angle_rad))
+    return offset._replace(passes=tuple(each._replace(by_um=each.by_um / cos) for each in offset.passes))
+
+
+def _directions(made: Offsetting | None, rows: int) -> Floats:
+    """(n,) +1 on rows that run as they were drawn, −1 on those of passes that run back."""
+    if made is None:
+        return np.ones(rows)
+    return np.where(made.passed.is_back[made.path.source_row], -1.0, 1.0)
+
+
+def _as_run(taper: Taper, made: Offsetting | None) -> Taper:
+    """The lean of a program along the rows of the path that runs."""
+    if made is None:
+        return taper
+    source = made.path.source_row
+    row, back = made.passed.row[source], made.passed.is_back[source]
+    return Taper(np.where(back, -taper.side[row], taper.side[row]), taper.angle_rad[row])
