@@ -19,7 +19,7 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from parser.controller_words import Compensation, StepWords
+from parser.controller_words import Compensation, StepWords, Taper
 from parser.geometry.curves import Bools, CurveKind, Curves, Floats, Ints, curves_between, joined
 from parser.iso.listing.lexer import read_listing
 from parser.iso.listing.listing import Listing
@@ -135,6 +135,8 @@ class Draft:
         The controller's offset that is to be written; None where it has none.
     events
         What is switched where it stands, in ISO.
+    taper
+        The lean of the wire that is to be written, in ISO; None of an upright one.
     is_meant
         Whether the curves are what is meant, and not what a program made of it: the nearest whole numbers are written
         then, in place of those that a CAM would have written.
@@ -148,6 +150,7 @@ class Draft:
     compensation: Compensation | None = None
     is_meant: bool = False
     events: tuple[Event, ...] = ()
+    taper: Taper | None = None
 
     def __len__(self) -> int:
         return len(self.curves)
@@ -186,6 +189,7 @@ def draft_of(toolpath: Toolpath) -> Draft:
         told_um=_center_ways(toolpath),
         words=toolpath.words,
         compensation=toolpath.compensation,
+        taper=toolpath.taper,
     )
 
 
@@ -221,7 +225,8 @@ def picked(draft: Draft, row: Ints) -> Draft:
     words = draft.words and StepWords(*(getattr(draft.words, name)[row] for name in StepWords.__slots__))
     stops = (stop._replace(after=int(np.searchsorted(row, stop.after))) for stop in draft.stops)
     columns = draft.curves.picked(row), tuple(stops), draft.is_placed[row], draft.told_um[row]
-    return Draft(*columns, words, compensation, draft.is_meant)
+    taper = draft.taper and Taper(draft.taper.side[row], draft.taper.angle_rad[row])
+    return Draft(*columns, words, compensation, draft.is_meant, taper=taper)
 
 
 _SAME_UM = 2.0
@@ -249,6 +254,7 @@ def with_rapid_to_start(draft: Draft) -> Draft:
         told_um=np.concatenate([np.full((1, 2), np.nan), draft.told_um]),
         words=None,
         compensation=compensation,
+        taper=draft.taper and Taper(np.append(0, draft.taper.side), np.append(0.0, draft.taper.angle_rad)),
     )
 
 

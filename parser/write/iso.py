@@ -15,7 +15,7 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from parser.controller_words import Compensation
+from parser.controller_words import Compensation, Taper
 from parser.findings.errors import SettingsError
 from parser.geometry.curves import CurveKind, Ints
 from parser.iso.profiles.profile import Profile, profile
@@ -219,6 +219,26 @@ def _changes(compensation: Compensation, names: list[str]) -> list[int]:
     return changes
 
 
+_LEANS = {1: "G51", -1: "G52", 0: "G50"}
+_ANGLE_DECIMALS = 6
+
+
+def leans_of(taper: Taper | None, choices: IsoChoices) -> dict[int, str]:
+    """The words of a draft's lean, by the rows at which another one begins: side and angle, or G50."""
+    found: dict[int, str] = {}
+    if taper is None:
+        return found
+    last = (0, 0.0)
+    for row, (side, angle_rad) in enumerate(zip(taper.side.tolist(), taper.angle_rad.tolist(), strict=True)):
+        now = (side, angle_rad if side else 0.0)
+        if now != last:
+            angle = np.degrees(angle_rad) / choices.profile.angle_point_deg
+            number = f"{angle:.{_ANGLE_DECIMALS}f}".rstrip("0")
+            found[row] = f"{_LEANS[side]} {choices.profile.angle}{number}" if side else _LEANS[side]
+        last = now
+    return found
+
+
 _PAUSE, _OPTIONAL_PAUSE = "M00", "M01"
 _TAPE = "%"
 _UNITS = {"um": "0.001 mm", "mm": "mm", "inch": "inches"}
@@ -273,6 +293,7 @@ def _body(draft: Draft, choices: IsoChoices, strokes: Strokes, sides: Sides) -> 
     blocks = _blocks(draft, choices, strokes)
     begins, ends = _about_cuts(draft)
     events, optional = written_events(draft.events), optional_stops(draft.events)
+    leans = leans_of(draft.taper, choices)
     for row in range(len(draft)):
         if row in ends:
             yield from choices.habits.behind_cut
@@ -282,7 +303,8 @@ def _body(draft: Draft, choices: IsoChoices, strokes: Strokes, sides: Sides) -> 
             yield from choices.habits.before_cut
         yield from events.get(row, [])
         yield from sides.before.get(row, [])
-        begun, closed = sides.first.get(row, ""), sides.last.get(row, "")
+        begun = " ".join(filter(None, (leans.get(row, ""), sides.first.get(row, ""))))
+        closed = sides.last.get(row, "")
         for block in blocks[first[row] : first[row + 1]]:
             yield " ".join(filter(None, (begun, block, closed)))
             begun = closed = ""

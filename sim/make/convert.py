@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.controller_words import Compensation, StepWords
+from parser.controller_words import Compensation, StepWords, Taper
 from parser.dialect.reader import Choices, Registers
 from parser.findings.codes import Severity
 from parser.findings.errors import ProgramError
@@ -29,6 +29,9 @@ from sim.make.wanted import Wanted, carried_events, draft_for, read_with, writte
 
 _SHARES = (0.25, 0.5, 0.75)
 _OFFSET_UM = 0.1
+_ANGLES = "AT"
+_ANGLE_RAD = 1e-7
+"""Over a height of 1 m it leads 0.1 µm aside."""
 _SLIDES_UM = 3.0
 """Of 60,000 ends of random lines and arcs, as near as whole µm let them, none slides 2.3 µm (docs/program.md)."""
 
@@ -66,6 +69,7 @@ def _differs(draft: Draft, row: Ints, read: Toolpath) -> str:
         "stops": _stops_alike(draft, row, read),
         "events": not draft.events or _events_alike(draft.events, row, read),
         "offsets": _sides_alike(draft.compensation, row, read.compensation),
+        "leans": _leans_alike(draft.taper, row, read.taper),
     }
     return next((what for what, is_alike in alike.items() if not is_alike), "")
 
@@ -138,6 +142,13 @@ def _sides_alike(drafted: Compensation | None, row: Ints, read: Compensation | N
     return bool((read.side == drafted.side[row]).all() and near.all())
 
 
+def _leans_alike(drafted: Taper | None, row: Ints, read: Taper | None) -> bool:
+    if drafted is None or read is None:
+        return drafted is read
+    near = np.abs(read.angle_rad - drafted.angle_rad[row]) <= _ANGLE_RAD
+    return bool((read.side == drafted.side[row]).all() and near[read.side != 0].all())
+
+
 def losses(program: Program, path: Toolpath, draft: Draft, made: Written, wanted: Wanted) -> tuple[Loss, ...]:
     """What the written text does not have of a program, in the order in which it is told.
 
@@ -157,10 +168,11 @@ def _carried(program: Program, path: Toolpath, wanted: Wanted) -> CarriedOver:
     if wanted.pmac is not None and wanted.pmac.blocks is not None:
         return CarriedOver(letters="FZ", dwells=True)
     events = carried_events(program, path, wanted)
+    angles = _ANGLES if program.toolpath.taper is not None else ""
     if events is None:
-        return CarriedOver()
+        return CarriedOver(letters=angles)
     is_own = not all(event.is_common for event in events)
-    return CarriedOver(letters=OF_THE_FAMILY if is_own else "", dwells=True, optional_stops=True)
+    return CarriedOver(letters=(OF_THE_FAMILY if is_own else "") + angles, dwells=True, optional_stops=True)
 
 
 def _lost_fields(program: Program, words: StepWords, wanted: Wanted) -> tuple[Loss, ...]:
@@ -303,7 +315,7 @@ def converted(program: Program, wanted: Wanted) -> Converted | Refused:
     checked = run_checks(program, Demands(may_stay_open=True))
     if _errors(checked):
         return Refused("source", program, _errors(checked))
-    lost = _beside_the_path(program, checked)
+    lost = _beside_the_path(program, checked, wanted)
     if lost is not None:
         return lost
     several = _several_offsets(program.toolpath, wanted)
@@ -319,15 +331,21 @@ def converted(program: Program, wanted: Wanted) -> Converted | Refused:
     )
 
 
-def _beside_the_path(program: Program, checked: Checked) -> Refused | None:
+def _beside_the_path(program: Program, checked: Checked, wanted: Wanted) -> Refused | None:
     """Why a program is not converted whose path is not all that it asks for, or not all known; None where it is."""
     beside_text = ", ".join(program.reading.not_simulated.words)
     if beside_text:
         said = tuple(finding for finding, _ in telling(checked.findings, NotSimulated))
         return Refused("not-simulated", program, said, (("words", beside_text),))
-    if program.toolpath.leans:
+    if program.toolpath.leans and not _keeps_lean(program, checked, wanted):
         return Refused("leans", program, tuple(found for found, _ in telling(checked.findings, Leans)))
     return None if checked.coverage.is_complete else Refused("incomplete", program)
+
+
+def _keeps_lean(program: Program, checked: Checked, wanted: Wanted) -> bool:
+    """Whether the lean of a program can be written: by angles, in ISO, of blocks that stay what they are."""
+    has_path_of_its_own = wanted.keeps or checked.compensation is None
+    return wanted.iso is not None and program.toolpath.upper is None and has_path_of_its_own
 
 
 def _word_for_word_or_not(

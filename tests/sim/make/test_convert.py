@@ -94,9 +94,27 @@ def test_a_program_that_asks_for_more_than_its_path_is_not_converted() -> None:
     assert [finding.code for finding in made.findings] == ["ISO204", "ISO600"]
 
 
-def test_a_program_that_leans_the_wire_is_not_converted() -> None:
-    made = refused(TWIN_ISO.replace("G01 X0 Y70100", "G51 A1.5 G01 X0 Y70100"), TO_3B)
+LEANING = "G92 X0 Y0\nG90\nG52 A1.5 G01 X0 Y5000\nX9000 Y5000\nA2.25 Y9000\nX-9000\nY5000\nX0\nG50 X0 Y0\nM02\n"
+
+
+def test_a_lean_is_converted_to_no_language_without_one() -> None:
+    made = refused(LEANING, TO_3B)
     assert (made.why, [finding.code for finding in made.findings]) == ("leans", ["ISO601"])
+    assert refused(LEANING.replace("Y9000", "Y9000 : X8000 Y8000"), to_iso()).why in {"leans", "not-simulated"}
+
+
+@pytest.mark.parametrize("dialect", ["sodick", "fanuc", "skd2", "robofil", "fast-wire", "mitsubishi"])
+def test_angles_are_kept_by_any_iso_and_come_back(dialect: str) -> None:
+    made = done(LEANING, to_iso(dialect))
+    there = made.program.toolpath.taper
+    assert there is not None
+    assert there.side.tolist() == [-1] * 6 + [0]
+    assert np.degrees(there.angle_rad)[:6].tolist() == pytest.approx([1.5, 1.5, 2.25, 2.25, 2.25, 2.25])
+    assert "switches" not in lost(made)
+    again = converted(made.program, to_iso("sodick"))
+    assert isinstance(again, Converted)
+    assert again.program.toolpath.taper is not None
+    assert np.abs(again.program.toolpath.taper.angle_rad - there.angle_rad).max() < 1e-9
 
 
 def test_a_program_without_the_value_of_its_register_is_not_converted() -> None:
