@@ -320,7 +320,7 @@ class TaperOptions(NamedTuple):
 
 def taken_taper(options: dict[str, Any]) -> TaperOptions:
     """The options of a wire that leans, which are taken out of all."""
-    return TaperOptions(*(options.pop(name) for name in TaperOptions._fields))
+    return TaperOptions(*(options.pop(name, None) for name in TaperOptions._fields))
 
 
 def taper_of(options: TaperOptions, own: "TaperSettings | None") -> "TaperSettings | None":

@@ -37,10 +37,9 @@ class Guides(NamedTuple):
         Most by which the wire may be tilted; None where nobody says.
     speed_um_s, acceleration_um_s2
         Highest of U and V.
-    mass_kg
-        That the drives of U and V move; U carries V. Those of the table where None.
-    friction_n, backlash_um
-        Of U and V.
+    mass_kg, friction_n, backlash_um
+        What the drives of U and V move, where U carries V, and what resists and slackens them; those of the table where
+        None.
     """
 
     lower_um: float = from_mm(USUAL_LOWER_MM)
@@ -51,12 +50,12 @@ class Guides(NamedTuple):
     speed_um_s: tuple[float, float] = (math.inf, math.inf)
     acceleration_um_s2: tuple[float, float] = (math.inf, math.inf)
     mass_kg: tuple[float | None, float | None] = (None, None)
-    friction_n: tuple[float, float] = (0.0, 0.0)
-    backlash_um: tuple[float, float] = (0.0, 0.0)
+    friction_n: tuple[float | None, float | None] = (None, None)
+    backlash_um: tuple[float | None, float | None] = (None, None)
 
     def head(self, table: TableModel) -> TableModel:
-        """What moves the upper guide: drives as those of the table, with masses, friction and backlash of its own."""
-        mass_u, mass_v = (own if own is not None else of for own, of in zip(self.mass_kg, table.moved_kg, strict=True))
+        """What moves the upper guide: drives as those of the table, but for what is said of the head."""
+        mass_u, mass_v = _own_or(self.mass_kg, table.moved_kg)
         travel = [table.travel_x_mm, table.travel_y_mm]
         for axis, travel_um in enumerate((self.travel_u_um, self.travel_v_um)):
             travel[axis] = mm(travel_um) if travel_um else travel[axis]
@@ -65,8 +64,8 @@ class Guides(NamedTuple):
             travel_y_mm=travel[1],
             saddle_mass_kg=mass_u - mass_v,
             carriage_mass_kg=mass_v,
-            friction_n=self.friction_n,
-            backlash_um=self.backlash_um,
+            friction_n=_own_or(self.friction_n, table.friction_n),
+            backlash_um=_own_or(self.backlash_um, table.backlash_um),
             geometry=Geometry(),
         )
 
@@ -85,13 +84,19 @@ GUIDES: Final = Section(
         Key("acceleration_v_mm_s2", _ACCELERATION, "acceleration_um_s2.1", default=math.inf),
         Key("mass_u_kg", _MASS, "mass_kg.0", default=None),
         Key("mass_v_kg", _MASS, "mass_kg.1", default=None),
-        Key("friction_u_n", _FRICTION, "friction_n.0", default=0.0),
-        Key("friction_v_n", _FRICTION, "friction_n.1", default=0.0),
-        Key("backlash_u_um", _BACKLASH, "backlash_um.0", default=0.0),
-        Key("backlash_v_um", _BACKLASH, "backlash_um.1", default=0.0),
+        Key("friction_u_n", _FRICTION, "friction_n.0", default=None),
+        Key("friction_v_n", _FRICTION, "friction_n.1", default=None),
+        Key("backlash_u_um", _BACKLASH, "backlash_um.0", default=None),
+        Key("backlash_v_um", _BACKLASH, "backlash_um.1", default=None),
     ),
     fills="guides",
 )
+
+
+def _own_or(own: tuple[float | None, float | None], other: tuple[float, float]) -> tuple[float, float]:
+    """Values of U and V, each of the other pair where it is None."""
+    first, second = (value if value is not None else instead for value, instead in zip(own, other, strict=True))
+    return first, second
 
 
 def read_guides(content: Mapping[str, Any], where: str) -> Guides | None:

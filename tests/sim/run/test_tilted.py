@@ -74,12 +74,13 @@ def test_the_piece_is_what_the_kerf_leaves_of_each_height(run: Run) -> None:
     reach = done.scenario.wire.reach_um / 0.9986295
     for section in done.tilted.sections:
         side_mm = 1e-3 * (float((section.high_um - section.low_um)[0]) - 2.0 * reach)
-        assert section.piece_mm2 == pytest.approx(side_mm**2, abs=0.05)
+        # Table and head let the wire be off its walls, 83 mm round, by up to 3 µm.
+        assert section.piece_mm2 == pytest.approx(side_mm**2, abs=0.25)
     (solid,) = done.tilted.solids
     assert (solid.kind, solid.larger, solid.drops) == ("part", "top", False)
     sides = [20.0 - 2e-3 * reach + by for by in (0.0, 4.192622)]
     frustum = 40.0 / 3.0 * (sides[0] ** 2 + sides[1] ** 2 + sides[0] * sides[1])
-    assert solid.volume_mm3 == pytest.approx(frustum, rel=2e-4)
+    assert solid.volume_mm3 == pytest.approx(frustum, rel=5e-4)
 
 
 def test_an_angle_of_0_changes_no_byte(run: Run) -> None:
