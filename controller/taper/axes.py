@@ -89,7 +89,8 @@ def guide_pulses(path: TiltedPath, plan: Plan) -> Iterator[tuple[Pulses, Pulses]
 
 def _of_face(limits: RowLimits, length_um: Floats) -> tuple[Floats, Floats, Floats, Floats]:
     """Speed, acceleration and border speeds of a contour as those of the longer one, and its waits."""
-    ratio = np.divide(length_um, limits.length_um, out=np.full_like(length_um, np.inf), where=limits.length_um > 0.0)
+    stands = np.where(length_um > 0.0, np.inf, 1.0)
+    ratio = np.divide(length_um, limits.length_um, out=stands, where=limits.length_um > 0.0)
     around = np.fmin(np.append(ratio, np.inf), np.insert(ratio, 0, np.inf))
     around[~np.isfinite(around)] = 1.0
     return limits.speed_um_s * ratio, limits.acceleration_um_s2 * ratio, limits.border_um_s * around, limits.wait_s

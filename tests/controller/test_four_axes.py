@@ -121,6 +121,14 @@ def test_the_plan_keeps_the_speed_of_each_axis(axis: int) -> None:
     assert plan.plan.duration_s > planned(path).plan.duration_s
 
 
+def test_a_block_without_length_is_passed_without_a_pulse() -> None:
+    places = [(0.1 * x, 0.1 * y) for x, y in SQUARE]
+    path = contour([*places[:3], places[2], *places[3:]])
+    tilt = tilted(path, told_lean(lean(path, -1, math.radians(3.0)), path), HEIGHTS, "sharp")
+    xy, uv = driven(tilt, planned(tilt))
+    assert (xy.x_um[-1], xy.y_um[-1], uv.x_um[-1], uv.y_um[-1]) == (1000, -500, 0, 0)
+
+
 def test_no_place_of_the_work_is_cut_faster_than_the_feed() -> None:
     path = punch("sharp")
     plan = planned(path, 100.0)
