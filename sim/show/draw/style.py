@@ -146,6 +146,8 @@ class Paint(StrEnum):
     CW_PALE = "cw-pale"
 
 
+OF_LEANS: Final = frozenset({Paint.TOP, Paint.BOTTOM})
+"""Paints of a wire that leans: pages of upright ones say nothing of them."""
 Theme = Mapping[Paint, Colour]
 ThemeName = Literal["light", "dark"]
 

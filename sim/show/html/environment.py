@@ -25,7 +25,7 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
 from parser import __version__
-from sim.show.draw.style import DARK, LIGHT, Theme
+from sim.show.draw.style import DARK, LIGHT, OF_LEANS, Theme
 from sim.show.texts import bilingual
 from sim.show.texts.texts import texts
 
@@ -193,10 +193,11 @@ def script_json(value: Any) -> Markup:
     return Markup(text)  # noqa: S704 - escaped just above
 
 
-def theme_css() -> Markup:
-    """Every paint as ``--name``: light, and dark on a screen that is set so."""
-    dark = f"@media screen and (prefers-color-scheme: dark) {{ {_root(DARK)} }}"
-    return Markup(f"{_root(LIGHT)}\n{dark}")  # noqa: S704 - names and numbers of this package
+def theme_css(*, leans: bool = False) -> Markup:
+    """Every paint as ``--name``: light, and dark on a screen that is set so; with `leans` those of a leaning wire."""
+    light, dark = (_root({paint: of[paint] for paint in of if leans or paint not in OF_LEANS}) for of in (LIGHT, DARK))
+    css = f"{light}\n@media screen and (prefers-color-scheme: dark) {{ {dark} }}"
+    return Markup(css)  # noqa: S704 - names and numbers of this package
 
 
 def _root(theme: Theme) -> str:

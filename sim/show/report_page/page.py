@@ -32,7 +32,7 @@ from sim.setup.scenario import MACHINE_FILE, TECHNOLOGY_FILE, Scenario, scenario
 from sim.setup.technology import technology_sections
 from sim.setup.toml.keys import Key, Section, WrittenSection, toml_text, toml_value
 from sim.setup.toml.kinds import Keys, OneOf
-from sim.show.draw.style import DARK, Theme, hexadecimal
+from sim.show.draw.style import DARK, OF_LEANS, Theme, hexadecimal
 from sim.show.html.environment import rendered
 from sim.show.pictures.inline import Inline
 from sim.show.refusals import machine_values, taken_for_granted
@@ -264,7 +264,7 @@ def report_page(
         walls=walls_entry(run.tilted),
         machine=machine_name(run.scenario.machine),
         reproduction=reproduction(run),
-        dark_pictures=_recoloured(DARK),
+        dark_pictures=_recoloured(DARK, leans=run.tilted is not None),
     )
 
 
@@ -304,7 +304,8 @@ def _expectation_table(run: DryRun) -> ReportTable:
     )
 
 
-def _recoloured(theme: Theme) -> Markup:
+def _recoloured(theme: Theme, *, leans: bool) -> Markup:
     """Rules of a style sheet that show pictures in the colours of a theme."""
     rule = Markup(".f-{0}{{fill:{1}}}.s-{0}{{stroke:{1}}}")
-    return Markup("\n").join(rule.format(paint, hexadecimal(colour)) for paint, colour in theme.items())
+    shown = {paint: colour for paint, colour in theme.items() if leans or paint not in OF_LEANS}
+    return Markup("\n").join(rule.format(paint, hexadecimal(colour)) for paint, colour in shown.items())

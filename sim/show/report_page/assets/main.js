@@ -5,7 +5,6 @@ import { columnsOf, readTables } from "./data.js";
 import { wireLinks } from "./links.js";
 import { printBy } from "./paper.js";
 import { Table, tellUnread } from "./tables.js";
-import { showWalls } from "./walls.js";
 
 /** @import { TableData } from "./data.js" */
 
@@ -25,7 +24,6 @@ async function show(data) {
 language.begin();
 wireLinks();
 printBy(element("#print-everything", HTMLInputElement));
-showWalls();
 
 /** For tests and other scripts: `ready` once all tables are shown. */
 export const tables = { ready: Promise.all(readTables().map(show)) };

@@ -28,12 +28,10 @@ const LEAST_TIP = -Math.PI / 2;
 const MOST_TIP = Math.PI / 2;
 const ROOM = 0.9; // of the canvas that the walls take
 
-/** Show the walls, where the page has any. */
+/** Show the walls of the page. */
 export function showWalls() {
-  const data = document.querySelector("#walls-data");
-  if (!(data instanceof HTMLElement)) return;
   /** @type {Walls} */
-  const walls = JSON.parse(data.textContent);
+  const walls = JSON.parse(element("#walls-data", HTMLElement).textContent);
   const view = element("#walls", HTMLCanvasElement);
   const plan = element("#section", HTMLCanvasElement);
   const height = element("#walls-height", HTMLInputElement);
