@@ -46,7 +46,6 @@ from sim.run.report.figures import (
     offset_entry,
     remains_entry,
     spark_entry,
-    taper_entry,
 )
 from sim.run.report.model import (
     AssumptionsEntry,
@@ -67,6 +66,7 @@ from sim.run.report.model import (
     WireEntry,
 )
 from sim.run.report.run_model import ContourEntry, InterpolatorEntry, PassEntry, StockEntry, ThreadPointEntry
+from sim.run.report.taper import taper_entry
 from sim.setup.scenario import Scenario
 from sim.setup.technology import Figure, PassTechnology
 

@@ -13,7 +13,6 @@ import shapely
 from controller.offset.chain import RowOrigin
 from parser.geometry.curves import CurveKind, Ints
 from parser.toolpath import Point
-from parser.units import mm
 from sim.base.units import DEG_DIGITS, column, corners, known, moment, place, points, rounded, rows
 from sim.check.offset import Offsetting
 from sim.cut.kerf.edges import Range
@@ -23,7 +22,6 @@ from sim.cut.play import Play
 from sim.cut.regions import simpler
 from sim.cut.remains import Remains
 from sim.cut.sizes import BoxSize, DistanceSize, RadiusSize, Sizes
-from sim.cut.solids import Section
 from sim.measure.causes import Deviations, Part
 from sim.measure.deviation import Deviation, Where
 from sim.process.cut import Moment, ProcessRun
@@ -51,14 +49,10 @@ from sim.run.report.run_model import (
     LossEntry,
     OffsetBlockEntry,
     OffsetEntry,
-    PlaneEntry,
     SparkEntry,
     SparkMomentEntry,
-    TaperEntry,
-    TiltedSectionEntry,
     WhereEntry,
 )
-from sim.setup.taper import TaperSettings
 from sim.table.losses import Loss, Peak
 
 
@@ -172,55 +166,6 @@ def spark_entry(process: ProcessRun | None) -> SparkEntry | None:
         ],
         "displaced_um": None if process.displaced_um is None else place(process.displaced_um),
         "collided_um": known(process.collided_um),
-    }
-
-
-def taper_entry(run: DryRun) -> TaperEntry | None:
-    """``taper``; None of an upright wire."""
-    cut, scenario = run.tilted, run.scenario
-    if cut is None:
-        return None
-    heights, uv, settings = cut.path.heights, cut.path.uv_um(), scenario.taper or TaperSettings()
-    planes: list[PlaneEntry] = [
-        {"plane": "lower-guide", "z_mm": rounded(mm(heights.lower_guide_um))},
-        {"plane": "bottom", "z_mm": 0.0},
-        {"plane": "program", "z_mm": rounded(mm(heights.program_um))},
-        {"plane": "top", "z_mm": rounded(mm(heights.work_um))},
-        {"plane": "upper-guide", "z_mm": rounded(mm(heights.upper_guide_um))},
-    ]
-    angle_rad = cut.path.angle_rad
-    return {
-        "angle_deg": None if angle_rad is None else rounded(math.degrees(angle_rad)),
-        "corner": settings.corner,
-        "planes": planes,
-        "guides_assumed": scenario.guides is None and scenario.machine.guides is None,
-        "pulses": {"xy": cut.axes.pulses[0], "uv": cut.axes.pulses[1]},
-        "uv_most_um": {"side": rounded(uv.side_um), "corner": rounded(uv.corner_um)},
-        "lean_most_deg": rounded(math.degrees(cut.path.lean_most_rad())),
-        "sections": [_tilted_section(section) for section in cut.sections],
-        "volume_mm3": {"programmed": rounded(cut.programmed_mm3), "piece": known(cut.piece_mm3)},
-        "pieces": [
-            {
-                "kind": solid.kind,
-                "volume_mm3": rounded(solid.volume_mm3),
-                "mass_g": rounded(solid.mass_g),
-                "larger": solid.larger,
-                "drops": solid.drops,
-            }
-            for solid in cut.solids
-        ],
-    }
-
-
-def _tilted_section(section: Section) -> TiltedSectionEntry:
-    """One entry of ``taper.sections[]``."""
-    width, height = (section.high_um - section.low_um).tolist()
-    return {
-        "z_mm": rounded(mm(section.z_um)),
-        "programmed_area_mm2": rounded(section.programmed_um2 * 1e-6),
-        "box_mm": [rounded(mm(width)), rounded(mm(height))],
-        "piece_area_mm2": known(section.piece_mm2),
-        "max_deviation_um": rounded(section.off_um),
     }
 
 

@@ -42,9 +42,9 @@ from sim.run.report.run_model import (
     OffsetEntry,
     PassEntry,
     SparkEntry,
-    TaperEntry,
     ThreadPointEntry,
 )
+from sim.run.report.taper import TaperEntry
 
 _WITH_ERROR: Final = {"contains": {"properties": {"severity": {"const": "error"}}}}
 

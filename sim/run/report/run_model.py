@@ -318,69 +318,6 @@ class SparkEntry(TypedDict):
     collided_um: Size | None
 
 
-class PlaneEntry(TypedDict):
-    """A plane across the wire, or a guide of it."""
-
-    plane: Annotated[str, one_of("lower-guide", "bottom", "program", "top", "upper-guide")]
-    z_mm: float
-
-
-class UVMostEntry(TypedDict):
-    """The most that the upper guide is moved against the lower one: across walls, and at all."""
-
-    side: Size
-    corner: Size
-
-
-class TiltedSectionEntry(TypedDict):
-    """The cut at a height: the wire's way, and what comes free."""
-
-    z_mm: Size
-    programmed_area_mm2: Size
-    box_mm: Point
-    piece_area_mm2: Size | None
-    max_deviation_um: Size
-
-
-class VolumeEntry(TypedDict):
-    """Volumes within the wire's way, and of what comes free."""
-
-    programmed: Size
-    piece: Size | None
-
-
-class SolidEntry(TypedDict):
-    """A piece through the whole work."""
-
-    kind: Annotated[str, one_of("part", "slug")]
-    volume_mm3: Size
-    mass_g: Size
-    larger: Annotated[str, one_of("top", "bottom", "neither")]
-    drops: bool
-
-
-class FourPulsesEntry(TypedDict):
-    """How many pulses X and Y were given together, and U and V."""
-
-    xy: Count
-    uv: Count
-
-
-class TaperEntry(TypedDict):
-    """The cut of a wire that leans."""
-
-    angle_deg: Size | None
-    corner: Annotated[str, one_of("sharp", "cone")]
-    planes: list[PlaneEntry]
-    guides_assumed: bool
-    pulses: FourPulsesEntry
-    uv_most_um: UVMostEntry
-    lean_most_deg: Size
-    sections: list[TiltedSectionEntry]
-    volume_mm3: VolumeEntry
-    pieces: list[SolidEntry]
-
-
 class LossEntry(TypedDict):
     """Steps that a drive lost, or the error at which a servo tripped."""
 
