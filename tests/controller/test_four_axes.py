@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from depth import cases
 from tilted_paths import HEIGHTS, ROUND, SQUARE, SQUARE_UP, contour, lean, random_pair, toolpath_of
 
 from controller.motion.limits import Feeds, JunctionDeviation, MotionLimits
@@ -76,7 +77,8 @@ def test_all_axes_end_each_block_together_where_it_ends() -> None:
     assert (xy.x_um[-1], xy.y_um[-1], uv.x_um[-1], uv.y_um[-1]) == (1000, -500, 0, 0)
 
 
-@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.deep
+@pytest.mark.parametrize("seed", cases(8, 200))
 def test_the_surface_of_the_steps_is_within_1_um_and_a_half(seed: int) -> None:
     toolpath, upper, _ = random_pair(seed)
     small, above = toolpath_of(_smaller(toolpath)), _smaller(upper)

@@ -4,12 +4,12 @@ import math
 
 import numpy as np
 import pytest
-import shapely
+from depth import cases
 from tilted_paths import HEIGHTS, ROUND, SQUARE, SQUARE_UP, contour, lean, random_pair
 
 from controller.taper.shifted_contour import Corner
 from controller.taper.tilted import Heights, TiltedPath, between_contours, tilted, told_lean
-from parser.geometry.curves import Floats
+from parser.geometry.along import places
 
 T3 = math.radians(3.0)
 
@@ -72,23 +72,25 @@ def test_an_inside_fillet_turns_over_at_its_radius_over_the_tangent() -> None:
     assert outward.turned == ()
 
 
-@pytest.mark.parametrize("seed", range(40))
+@pytest.mark.deep
+@pytest.mark.parametrize("seed", cases(10, 1000))
 @pytest.mark.parametrize("planes_mm", [(0.0, 40.0), (5.0, 30.0)])
 def test_sections_are_those_of_an_independent_ruled_surface(seed: int, planes_mm: tuple[float, float]) -> None:
     toolpath, upper, walk = random_pair(seed)
     planes = (1000.0 * planes_mm[0], 1000.0 * planes_mm[1])
     path = between_contours(toolpath, upper, HEIGHTS, planes)
     for z_um in (0.0, 10_000.0, 20_000.0, 30_000.0, 40_000.0):
-        curves, _ = path.section(z_um)
-        plain = walk((z_um - planes[0]) / (planes[1] - planes[0]))
-        assert ends_off_um(curves.end_um, plain) <= 0.1
-    assert np.abs(curves.end_um[:-1] - curves.start_um[1:]).max() < 1e-6
-
-
-def ends_off_um(places: Floats, plain: Floats) -> float:
-    """How far places lie off a plain line of places, at most."""
-    line = shapely.LineString(plain)
-    return float(shapely.distance(line, shapely.points(places)).max())
+        curves, row = path.section(z_um)
+        source = path.source_row[row]
+        parts = np.bincount(source)[source]
+        number = np.arange(len(source)) - np.searchsorted(source, source)
+        height = (z_um - planes[0]) / (planes[1] - planes[0])
+        off = [
+            np.hypot(*(found - walk(source, (number + by) / parts, height)).T).max()
+            for found, by in ((curves.end_um, 1.0), (places(curves, np.arange(len(row)), np.full(len(row), 0.5)), 0.5))
+        ]
+        assert max(off) <= 0.1
+        assert np.abs(curves.end_um[:-1] - curves.start_um[1:]).max() < 1e-6
 
 
 @pytest.mark.parametrize("angle_deg", [0.5, 1.0, 3.0, 10.0])

@@ -8,7 +8,7 @@ import numpy as np
 
 from controller.taper.tilted import Heights
 from parser.controller_words import Taper
-from parser.geometry.curves import Curves, Floats, curves_between
+from parser.geometry.curves import Curves, Floats, Ints, curves_between
 from parser.text.source import Source
 from parser.toolpath import Toolpath
 
@@ -58,16 +58,17 @@ ROUND = contour([(0, 0), *_ROUND, (0, 0)], dict.fromkeys(range(1, 9), ((0, 0), m
 """A circle of 8 mm radius in eight arcs, likewise."""
 
 
-def random_pair(seed: int) -> tuple[Toolpath, Curves, Callable[[float], Floats]]:
-    """Two closed contours of lines and arcs, matched; and places at a share of the height, walked in small steps."""
+def random_pair(seed: int) -> tuple[Toolpath, Curves, Callable[[Ints, Floats, float], Floats]]:
+    """Two closed contours of lines and arcs, matched; and where the wire is at shares of rows, at a share of height."""
     rng = np.random.default_rng(seed)
     n = int(rng.integers(4, 9))
     lower, upper = (_ring(rng, n, size) for size in (20.0, float(rng.uniform(8.0, 30.0))))
-    share = np.linspace(0.0, 1.0, 4001)
 
-    def walked(at: float) -> Floats:
-        rows = [_walk(lower, row, share) * (1.0 - at) + _walk(upper, row, share) * at for row in range(n)]
-        return np.concatenate(rows)
+    def walked(row: Ints, share: Floats, height: float) -> Floats:
+        low, high = (
+            np.stack([_walk(of, *at) for at in zip(row.tolist(), share, strict=True)]) for of in (lower, upper)
+        )
+        return low * (1.0 - height) + high * height
 
     return toolpath_of(lower), upper, walked
 
@@ -88,11 +89,11 @@ def _ring(rng: np.random.Generator, n: int, size_mm: float) -> Curves:
     return contour(places, arcs)
 
 
-def _walk(curves: Curves, row: int, share: Floats) -> Floats:
-    """Places (k, 2) along a row: straight on, or by turning its start about its centre."""
+def _walk(curves: Curves, row: int, share: float) -> Floats:
+    """A place (2,) along a row: straight on, or by turning its start about its centre."""
     start, sweep = curves.start_um[row], float(curves.sweep_rad[row])
     if not sweep:
-        return start + share[:, None] * (curves.end_um[row] - start)
-    cos, sin = np.cos(share * sweep), np.sin(share * sweep)
+        return start + share * (curves.end_um[row] - start)
+    cos, sin = math.cos(share * sweep), math.sin(share * sweep)
     x, y = (start - curves.center_um[row]).tolist()
-    return curves.center_um[row] + np.stack([x * cos - y * sin, x * sin + y * cos], axis=1)
+    return curves.center_um[row] + np.array([x * cos - y * sin, x * sin + y * cos])
