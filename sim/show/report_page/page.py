@@ -307,5 +307,5 @@ def _expectation_table(run: DryRun) -> ReportTable:
 def _recoloured(theme: Theme, *, leans: bool) -> Markup:
     """Rules of a style sheet that show pictures in the colours of a theme."""
     rule = Markup(".f-{0}{{fill:{1}}}.s-{0}{{stroke:{1}}}")
-    shown = {paint: colour for paint, colour in theme.items() if leans or paint not in OF_LEANS}
-    return Markup("\n").join(rule.format(paint, hexadecimal(colour)) for paint, colour in shown.items())
+    paints = {paint: colour for paint, colour in theme.items() if leans or paint not in OF_LEANS}
+    return Markup("\n").join(rule.format(paint, hexadecimal(colour)) for paint, colour in paints.items())

@@ -11,11 +11,7 @@ from sim.base.workers.rounds import Processes
 from sim.check.file_check import check_file
 from sim.check.parallel import check_files
 from sim.check.result import CheckResult, Silenced
-from sim.cli.check.jobs import CheckOptions, jobs_of
-
-NOTHING = CheckOptions(
-    *[None] * 5, {}, {}, False, None, None, (), (), (), None, no_config=False, baseline=None, write_baseline=None
-)
+from sim.cli.check.jobs import NO_OPTIONS, jobs_of
 
 
 def check(*arguments: object, cwd: Path, **environment: str) -> tuple[object, str, str]:
@@ -51,7 +47,7 @@ def test_the_result_names_its_settings_and_counts_what_they_silence(
     shop: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def result(name: str, **asked: object) -> CheckResult:
-        (job,) = jobs_of([name], NOTHING._replace(**asked)).jobs  # type: ignore[arg-type]
+        (job,) = jobs_of([name], NO_OPTIONS._replace(**asked)).jobs  # type: ignore[arg-type]
         return check_file(job)
 
     (shop / "drycut.toml").write_text('ignore = ["3B2"]\n', "utf-8")
@@ -197,7 +193,7 @@ def test_files_are_silenced_alike_on_all_cores(shop: Path, monkeypatch: pytest.M
     (shop / "a.3b").write_text(WRONG_AXIS.replace("GXNR1\n", "GXNR1 // drycut: ignore 3B204\n"), "ascii")
     check("jigs/b.3b", "--write-baseline", "known.json", cwd=shop)
     monkeypatch.chdir(shop)
-    jobs = jobs_of(["."], NOTHING._replace(baseline=Path("known.json"), fail_on="warning")).jobs
+    jobs = jobs_of(["."], NO_OPTIONS._replace(baseline=Path("known.json"), fail_on="warning")).jobs
     told: list[tuple[int, int]] = []
     results = list(check_files(jobs, Processes(), lambda done, total: told.append((done, total))))
     assert [result.silenced for result in results] == [
