@@ -75,7 +75,7 @@ def follow_tilted(  # noqa: PLR0913, PLR0917 - what moves, by what, how fast, an
     _, plan = plan_guides(path, feeds, limits, axes, rests)
     ruled = path.ruled
     length = np.maximum(ruled.lower.length_um, ruled.upper.length_um)
-    longer = replace(ruled.upper if ruled.upper.length_um.sum() > ruled.lower.length_um.sum() else ruled.lower)
+    longer = ruled.upper if ruled.upper.length_um.sum() > ruled.lower.length_um.sum() else ruled.lower
     ways = replace(longer, length_um=length)
     head = guides.head(machine.table)
     pairs = [

@@ -97,5 +97,5 @@ def places_of(shown: Tab) -> Callable[[float, float], tuple[float, float]]:
 
 
 def planned(page: "Page", said: str = "Plan, not proved") -> None:
-    """Wait until the plan of a drawing says something."""
-    page.locator("#drawing-told li", has_text=said).wait_for()
+    """Wait until the plan of a drawing says something: a process loads, reads and plans, seconds even at rest."""
+    page.locator("#drawing-told li", has_text=said).wait_for(timeout=3 * WAIT_MS)
