@@ -15,8 +15,7 @@ from controller.motion.plan import Plan
 from controller.motion.planner import RowLimits, plan_rows
 from controller.stepping.pulses import Pulses
 from controller.taper.tilted import TiltedPath
-from parser.geometry.along import places
-from parser.geometry.curves import CurveKind, Floats, Ints, total_before
+from parser.geometry.curves import Floats, Ints, total_before
 
 _PER_UM: Final = 2.5
 """Places looked at in each µm that an axis moves. Its highest speed in a row is known within 1 % (`_ways_um`): no axis
@@ -42,45 +41,50 @@ class GuidePlan(NamedTuple):
         What the plan keeps to, by the rows of the path.
     plan
         Motion along the rows, each as long as the longer of its contours.
+    ways_um
+        (m, 4) how far X, Y, U and V would go in each row at the speed of its fastest place.
     """
 
     limits: RowLimits
     plan: Plan
+    ways_um: Floats
 
 
 def plan_guides(path: TiltedPath, feeds: Feeds, motion: MotionLimits, axes: AxisLimits, rests: Ints) -> GuidePlan:
     """The plan of a tilted path; `feeds` of cuts are for all rows or one for each, and it rests before rows `rests`."""
     ruled = path.ruled
-    length = np.maximum(ruled.lower.length_um, ruled.upper.length_um)
-    is_jump = ruled.lower.kind == CurveKind.JUMP
-    feed = np.where(is_jump, feeds.jump_um_s, feeds.cut_um_s)
+    length = ruled.length_um
+    feed = np.where(ruled.is_jump, feeds.jump_um_s, feeds.cut_um_s)
     free = motion._replace(axis_speed_um_s=(np.inf, np.inf), axis_acceleration_um_s2=(np.inf, np.inf))
     faces = [_of_face(path_limits(path_of(of), feed, rests, free), length) for of in (ruled.lower, ruled.upper)]
-    speed, acceleration, border, wait = (
-        fewest(column) for fewest, column in zip((_least, _least, _least, _most), zip(*faces, strict=True), strict=True)
+    speeds, accelerations, borders, waits = zip(*faces, strict=True)
+    ways = _ways_um(path)
+    share = ways / np.where(length > 0.0, length, 1.0)[:, None]
+    limits = RowLimits(
+        length,
+        np.minimum.reduce([*speeds, feed, _allowed(share, axes.speed_um_s)]),
+        np.minimum.reduce([*accelerations, _allowed(share, axes.acceleration_um_s2)]),
+        np.minimum.reduce(borders),
+        np.maximum.reduce(waits),
     )
-    share = _axis_shares(path, length)
-    speed = np.minimum(np.minimum(speed, feed), _allowed(share, axes.speed_um_s))
-    acceleration = np.minimum(acceleration, _allowed(share, axes.acceleration_um_s2))
-    limits = RowLimits(length, speed, acceleration, border, wait)
-    return GuidePlan(limits, plan_rows(limits, jerk_um_s3=motion.jerk_um_s3))
+    return GuidePlan(limits, plan_rows(limits, jerk_um_s3=motion.jerk_um_s3), ways)
 
 
-def guide_pulses(path: TiltedPath, plan: Plan) -> Iterator[tuple[Pulses, Pulses]]:
+def guide_pulses(path: TiltedPath, planned: GuidePlan) -> Iterator[tuple[Pulses, Pulses]]:
     """Pulses of X and Y, and of U and V, in the same stretches of time; places are whole µm.
 
     X and Y are the place of the lower guide, U and V that of the upper guide against it.
     """
-    length = np.maximum(path.ruled.lower.length_um, path.ruled.upper.length_um)
+    plan, length = planned.plan, planned.limits.length_um
     before = total_before(length)
-    count = np.maximum(np.ceil(_PER_UM * _ways_um(path).max(axis=1)), 1.0).astype(np.int64)
+    count = np.maximum(np.ceil(_PER_UM * planned.ways_um.max(axis=1)), 1.0).astype(np.int64)
     past = np.cumsum(count)
-    at = _places(path, np.zeros(1, dtype=np.int64), np.zeros(1))
+    at = path.axes_um(np.zeros(1, dtype=np.int64), np.zeros(1))
     for since in range(0, int(past[-1]) if len(past) else 0, _AT_ONCE):
         number = np.arange(since, min(since + _AT_ONCE, int(past[-1])))
         row = np.searchsorted(past, number, side="right")
         share = (number - past[row] + count[row] + 1) / count[row]
-        place = np.concatenate([at, _places(path, row, share)])
+        place = np.concatenate([at, path.axes_um(row, share)])
         at = place[-1:]
         along = np.concatenate([[0.0], before[row] + share * length[row]])
         along[0] = along[1] - length[row[0]] / count[row[0]]
@@ -96,50 +100,32 @@ def _of_face(limits: RowLimits, length_um: Floats) -> tuple[Floats, Floats, Floa
     return limits.speed_um_s * ratio, limits.acceleration_um_s2 * ratio, limits.border_um_s * around, limits.wait_s
 
 
-def _least(columns: tuple[Floats, ...]) -> Floats:
-    return np.minimum(*columns)
-
-
-def _most(columns: tuple[Floats, ...]) -> Floats:
-    return np.maximum(*columns)
-
-
-def _axis_shares(path: TiltedPath, length_um: Floats) -> Floats:
-    """(m, 4) the most that each axis moves for each µm of the plan."""
-    shares: Floats = _ways_um(path) / np.where(length_um > 0.0, length_um, 1.0)[:, None]
-    return shares
-
-
 def _ways_um(path: TiltedPath) -> Floats:
     """(m, 4) how far each axis would go in each row at the speed of its fastest place.
 
     That is the mean speed of a sixteenth of the row: of a whole turn 0.6 % less than the highest.
     """
     edges, rows = np.linspace(0.0, 1.0, _SAMPLES), len(path.ruled)
-    place = _places(path, np.repeat(np.arange(rows), _SAMPLES), np.tile(edges, rows)).reshape(rows, _SAMPLES, 4)
+    place = path.axes_um(np.repeat(np.arange(rows), _SAMPLES), np.tile(edges, rows)).reshape(rows, _SAMPLES, 4)
     ways: Floats = np.abs(np.diff(place, axis=1)).max(axis=1, initial=0.0) * (_SAMPLES - 1)
     return ways
 
 
 def _allowed(share: Floats, most: tuple[float, ...]) -> Floats:
-    """(m,) what the axes allow along the plan."""
+    """(m,) what axes allow along the plan that move by `share` (m, 4) for each µm of it, in the unit of `most`."""
     of_axes = np.divide(np.broadcast_to(most, share.shape), share, out=np.full_like(share, np.inf), where=share > 0.0)
     least: Floats = of_axes.min(axis=1, initial=np.inf)
     return least
 
 
-def _places(path: TiltedPath, row: Ints, share: Floats) -> Floats:
-    """X, Y, U and V (k, 4) µm at shares (k,) of rows."""
-    ruled, heights = path.ruled, path.heights
-    low, high = (places(of, row, share) for of in (ruled.lower, ruled.upper))
-    lean = (high - low) / ruled.height_um
-    below = low + lean * (heights.lower_guide_um - ruled.lower_z_um)
-    return np.concatenate([below, lean * (heights.upper_guide_um - heights.lower_guide_um)], axis=1)
+def whole_um(place_um: Floats) -> Ints:
+    """Places in the whole µm at which axes stand; of two that are as near, the even one."""
+    return np.rint(np.round(place_um, _DIGITS)).astype(np.int64)
 
 
 def _pair(place_um: Floats, along_um: Floats, row: Ints, plan: Plan) -> Pulses:
     """Pulses of two axes whose places (k + 1, 2) are known where so much of the plan is done."""
-    whole = np.rint(np.round(place_um, _DIGITS)).astype(np.int64)
+    whole = whole_um(place_um)
     found = [_crossings(place_um[:, axis], whole[:, axis], along_um) for axis in (0, 1)]
     along = np.concatenate([of[1] for of in found])
     order = np.argsort(along, kind="stable")

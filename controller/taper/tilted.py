@@ -12,18 +12,13 @@ import numpy as np
 from controller.offset.shifted import rounds_of
 from controller.taper.shifted_contour import Corner, Joints, ShiftedContour, shifted_contour
 from parser.controller_words import Taper
-from parser.geometry.along import headings, to_left
-from parser.geometry.curves import Bools, CurveKind, Curves, Floats, Ints, curves_between, joined
+from parser.geometry.curves import Bools, CurveKind, Curves, Floats, Ints, joined
 from parser.geometry.ruled import Ruled
 from parser.shape.contours import CLOSED_WITHIN_UM
 from parser.toolpath import Toolpath
 
 _SAMPLES: Final = 33
 """Places of a row at which its lean is looked at, its ends among them: most rows lean most at an end."""
-_SAGITTA_UM: Final = 0.02
-"""Of chords that stand for what is no arc any more."""
-_SAME_RAD: Final = 1e-9
-_NOTHING_UM: Final = 1e-6
 
 
 class Heights(NamedTuple):
@@ -43,6 +38,11 @@ class Heights(NamedTuple):
     program_um: float
     lower_guide_um: float
     upper_guide_um: float
+
+    @property
+    def span_um(self) -> float:
+        """From the lower guide to the upper one."""
+        return self.upper_guide_um - self.lower_guide_um
 
 
 class Turned(NamedTuple):
@@ -84,33 +84,24 @@ class TiltedPath:
         """The way of the wire at the bottom of the work, and at its top, (m,) rows each."""
         return self.ruled.lower, self.ruled.upper
 
-    def section(self, z_um: float) -> tuple[Curves, Ints]:
-        """The way of the wire at a height, and the row of this path (k,) that each of its rows belongs to.
+    def axes_um(self, row: Ints, share: Floats) -> Floats:
+        """X, Y, U and V (k, 4) µm at shares (k,) of rows (k,): the lower guide, and the upper one against it."""
+        low, lean = self.ruled.wires(row, share)
+        below = low + lean * (self.heights.lower_guide_um - self.ruled.lower_z_um)
+        return np.concatenate([below, lean * self.heights.span_um], axis=1)
 
-        Lines between lines are lines, and arcs about one centre by one angle are arcs about it; all else is cut into
-        chords.
-        """
-        return _section(self.ruled, z_um)
-
-    def reach(self) -> tuple[Ints, Floats]:
-        """Rows of the toolpath (m,), and how far the upper guide is from above the lower one there (m, 2), µm."""
+    def sampled_axes_um(self) -> tuple[Ints, Floats]:
+        """Rows of the toolpath (k,), and X, Y, U and V (k, 4) µm there, at several places of each row of this path."""
         row, share = _sampled(len(self.ruled))
-        span_um = self.heights.upper_guide_um - self.heights.lower_guide_um
-        return self.source_row[row], self.ruled.leans(row, share) * span_um
-
-    def guide_places(self) -> tuple[Ints, Floats]:
-        """Rows of the toolpath (m,), and places of the lower guide there (m, 2), µm."""
-        row, share = _sampled(len(self.ruled))
-        return self.source_row[row], self.ruled.places(row, share, self.heights.lower_guide_um)
+        return self.source_row[row], self.axes_um(row, share)
 
     def uv_um(self) -> "UVMost":
         """The most that the upper guide is moved against the lower one: across walls, and at all, as at corners."""
-        span_um = self.heights.upper_guide_um - self.heights.lower_guide_um
         row, share = _sampled(len(self.ruled))
-        lean = self.ruled.leans(row, share) * span_um
-        across = np.abs((lean * _across(self.ruled, row, share)).sum(axis=1))
-        cuts = (self.ruled.lower.kind != CurveKind.JUMP)[row]
-        side, corner = (float(column[cuts].max(initial=0.0)) for column in (across, np.hypot(*lean.T)))
+        aside = self.axes_um(row, share)[:, 2:]
+        across = np.abs((aside * self.ruled.across(row, share)).sum(axis=1))
+        cuts = ~self.ruled.is_jump[row]
+        side, corner = (float(column[cuts].max(initial=0.0)) for column in (across, np.hypot(*aside.T)))
         return UVMost(side, corner)
 
     def lean_most_rad(self) -> float:
@@ -124,17 +115,13 @@ class TiltedPath:
     def across_rad(self) -> Floats:
         """(m,) by how much the wire leans across its wall in the middle of each row."""
         row, half = np.arange(len(self.ruled)), np.full(len(self.ruled), 0.5)
-        lean = (self.ruled.leans(row, half) * _across(self.ruled, row, half)).sum(axis=1)
+        lean = (self.ruled.leans(row, half) * self.ruled.across(row, half)).sum(axis=1)
         across: Floats = np.abs(np.arctan(lean))
         return across
 
     def wall_rad(self, rows: int) -> Floats:
         """(rows,) by how much the wire leans across the wall of each row of the toolpath, corners aside."""
         return self.across_rad()[np.searchsorted(self.source_row, np.arange(rows))]
-
-    def across(self, row: Ints, share: Floats) -> Floats:
-        """Unit directions (k, 2) across the walls at shares (k,) of rows: square to the longer of both contours."""
-        return _across(self.ruled, row, share)
 
     def _leans(self) -> Floats:
         """(m, s) tangents of the lean at some places of each row."""
@@ -292,42 +279,11 @@ def _rows_between(source: Ints, first: int, last: int) -> Ints:
 
 def _at_faces(ruled: Ruled, work_um: float) -> tuple[Ruled, Ints]:
     """The same surface from the bottom to the top of the work, and the row (k,) that each of its rows belongs to."""
-    (lower, row), (upper, _) = (_section(ruled, z_um) for z_um in (0.0, work_um))
+    (lower, row), (upper, _) = (ruled.section(z_um) for z_um in (0.0, work_um))
     return Ruled(lower, upper, 0.0, work_um), row
-
-
-def _section(ruled: Ruled, z_um: float) -> tuple[Curves, Ints]:
-    """Curves of a ruled surface at a height, and the row of each."""
-    lower, upper = ruled.lower, ruled.upper
-    share = (z_um - ruled.lower_z_um) / ruled.height_um
-    alike = lower.is_arc & upper.is_arc & (np.abs(lower.sweep_rad - upper.sweep_rad) < _SAME_RAD)
-    alike &= np.abs(lower.start_angle_rad - upper.start_angle_rad) < _SAME_RAD
-    one_stands = (lower.is_arc != upper.is_arc) & (np.minimum(lower.length_um, upper.length_um) == 0.0)
-    bent = (lower.is_arc | upper.is_arc) & ~alike & ~one_stands
-    reach = np.maximum(np.nan_to_num(lower.radius_um), np.nan_to_num(upper.radius_um))
-    # A chord c leaves a circle of radius R by c² / 8 R.
-    chord = np.sqrt(8.0 * np.maximum(reach, 1.0) * _SAGITTA_UM)
-    count = np.where(bent, np.ceil(np.maximum(lower.length_um, upper.length_um) / chord), 1.0).astype(np.int64)
-    row = np.repeat(np.arange(len(ruled)), count)
-    number = np.arange(len(row)) - np.repeat(np.cumsum(count) - count, count)
-    start, end = (ruled.places(row, (number + by) / count[row], z_um) for by in (0, 1))
-    sweep = np.where(alike | one_stands, np.where(lower.is_arc, lower.sweep_rad, upper.sweep_rad), 0.0)
-    low, high = (np.where(of.is_arc[:, None], of.center_um, of.start_um) for of in (lower, upper))
-    center = (low + share * (high - low))[row]
-    stands = np.hypot(*(start - center).T) < _NOTHING_UM
-    made = curves_between(start, end, center, np.where(stands, 0.0, sweep[row]))
-    made.kind[(lower.kind == CurveKind.JUMP)[row]] = CurveKind.JUMP
-    return made, row
 
 
 def _sampled(rows: int) -> tuple[Ints, Floats]:
     """Each row at some shares."""
     share = np.linspace(0.0, 1.0, _SAMPLES)
     return np.repeat(np.arange(rows), _SAMPLES), np.tile(share, rows)
-
-
-def _across(ruled: Ruled, row: Ints, share: Floats) -> Floats:
-    """Unit directions (m, 2) across the walls: square to the longer of the two contours there."""
-    longer = ruled.lower.length_um >= ruled.upper.length_um
-    low, high = (to_left(headings(of, row, share)) for of in (ruled.lower, ruled.upper))
-    return np.where(longer[row][:, None], low, high)

@@ -6,14 +6,19 @@ t of the lower one is done, the wire leads from there to share t of the upper on
 """
 
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 
-from parser.geometry.along import places
-from parser.geometry.curves import Curves, Floats, Ints
+from parser.geometry.along import headings, places, to_left
+from parser.geometry.curves import Bools, CurveKind, Curves, Floats, Ints, curves_between
 
 _NODES = 24
 """Places of Gauss and Legendre in a row: an arc of a whole turn against a line is then right to 10⁻¹² of its area."""
+_SAGITTA_UM: Final = 0.02
+"""Of chords that stand for what is no arc any more."""
+_SAME_RAD: Final = 1e-9
+_NOTHING_UM: Final = 1e-6
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -48,15 +53,70 @@ class Ruled:
         """From the lower contour to the upper one."""
         return self.upper_z_um - self.lower_z_um
 
+    @property
+    def length_um(self) -> Floats:
+        """(n,) length of the longer of the two contours in each row."""
+        longer: Floats = np.maximum(self.lower.length_um, self.upper.length_um)
+        return longer
+
+    @property
+    def is_jump(self) -> Bools:
+        """(n,) True on jumps."""
+        jump: Bools = self.lower.kind == CurveKind.JUMP
+        return jump
+
+    def wires(self, row: Ints, share: Floats) -> tuple[Floats, Floats]:
+        """The wire at shares (m,) of the rows (m,): places (m, 2) µm on the lower contour, and leans (m, 2).
+
+        A lean is a tangent: how far the wire leads aside for each µm up.
+        """
+        low = places(self.lower, row, share)
+        return low, (places(self.upper, row, share) - low) / self.height_um
+
     def places(self, row: Ints, share: Floats, z_um: float) -> Floats:
         """Places (m, 2) µm of the wire at a height, at shares (m,) of the rows (m,); beyond the contours too."""
-        low = places(self.lower, row, share)
-        high = places(self.upper, row, share)
-        return low + (high - low) * ((z_um - self.lower_z_um) / self.height_um)
+        low, lean = self.wires(row, share)
+        return low + lean * (z_um - self.lower_z_um)
 
     def leans(self, row: Ints, share: Floats) -> Floats:
-        """By how much (m, 2) the wire leans, as tangents: how far it leads aside for each µm up."""
-        return (places(self.upper, row, share) - places(self.lower, row, share)) / self.height_um
+        """By how much (m, 2) the wire leans at shares (m,) of the rows (m,), as tangents."""
+        return self.wires(row, share)[1]
+
+    def across(self, row: Ints, share: Floats) -> Floats:
+        """Unit directions (m, 2) across the walls at shares (m,) of the rows (m,): square to the longer contour."""
+        longer = self.lower.length_um >= self.upper.length_um
+        low, high = (to_left(headings(of, row, share)) for of in (self.lower, self.upper))
+        return np.where(longer[row][:, None], low, high)
+
+    def section(self, z_um: float) -> tuple[Curves, Ints]:
+        """The curves at a height, and the row (k,) of this surface that each of them belongs to.
+
+        Lines between lines are lines, and arcs about one centre by one angle are arcs about it; all else is cut into
+        chords.
+        """
+        lower, upper = self.lower, self.upper
+        share = (z_um - self.lower_z_um) / self.height_um
+        alike = lower.is_arc & upper.is_arc & (np.abs(lower.sweep_rad - upper.sweep_rad) < _SAME_RAD)
+        alike &= np.abs(lower.start_angle_rad - upper.start_angle_rad) < _SAME_RAD
+        one_stands = (lower.is_arc != upper.is_arc) & (np.minimum(lower.length_um, upper.length_um) == 0.0)
+        row, number, count = self._chords((lower.is_arc | upper.is_arc) & ~alike & ~one_stands)
+        start, end = (self.places(row, (number + by) / count[row], z_um) for by in (0, 1))
+        sweep = np.where(alike | one_stands, np.where(lower.is_arc, lower.sweep_rad, upper.sweep_rad), 0.0)
+        low, high = (np.where(of.is_arc[:, None], of.center_um, of.start_um) for of in (lower, upper))
+        center = (low + share * (high - low))[row]
+        stands = np.hypot(*(start - center).T) < _NOTHING_UM
+        made = curves_between(start, end, center, np.where(stands, 0.0, sweep[row]))
+        made.kind[self.is_jump[row]] = CurveKind.JUMP
+        return made, row
+
+    def _chords(self, bent: Bools) -> tuple[Ints, Ints, Ints]:
+        """Chords for rows that are bent, one for each of the others: row and number (k,) of each, and counts (n,)."""
+        reach = np.maximum(np.nan_to_num(self.lower.radius_um), np.nan_to_num(self.upper.radius_um))
+        # A chord c leaves a circle of radius R by c² / 8 R.
+        chord = np.sqrt(8.0 * np.maximum(reach, 1.0) * _SAGITTA_UM)
+        count = np.where(bent, np.ceil(self.length_um / chord), 1.0).astype(np.int64)
+        row = np.repeat(np.arange(len(self)), count)
+        return row, np.arange(len(row)) - np.repeat(np.cumsum(count) - count, count), count
 
     def area_um2(self, rows: Ints, z_um: float) -> float:
         """Signed area within the closed section that rows (k,) make at a height, positive counter-clockwise.

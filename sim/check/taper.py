@@ -8,7 +8,6 @@ import numpy as np
 from controller.taper.tilted import TiltedPath, section_toolpath
 from parser.dialect.reader import at_block
 from parser.findings.findings import Finding, Value
-from parser.geometry.curves import CurveKind
 from parser.program import Program
 from parser.shape.contours import contour_rows
 from parser.shape.passes import find_passes
@@ -25,6 +24,9 @@ other: a square beside a circle has 1.27, a slot beside its taper of 10° 1.5.""
 _SHORT_UM: Final = 500.0
 """Blocks that are shorter in both planes belong to corners."""
 _HAIR_UM: Final = 1.0
+"""By so much a path may leave the travel: the lower guide stands at whole steps."""
+_OFFSET_UM: Final = 1.0
+"""Offsets that differ by less are one."""
 
 
 def taper_findings(
@@ -34,7 +36,7 @@ def taper_findings(
     table: TableModel | None = None,
     start_um: tuple[float, float] | None = None,
 ) -> Iterator[Finding]:
-    """Findings 3B701 to 3B704, 3B706 and 3B709, each at the first block that it is about, and how many more there are.
+    """Findings 3B701 to 3B704, 3B706, 3B709 and 3B710, each at the first block that it is about, and how many more.
 
     `start_um` is the place of the program's start on the table, None where no table is known.
     """
@@ -42,8 +44,19 @@ def taper_findings(
     yield from _guides(program, path, guides)
     if table is not None and start_um is not None:
         yield from _travel(program, path, table, start_um)
-    yield from _uneven(program, path)
+    yield from _uneven(program)
     yield from _crossing(program, path)
+
+
+def not_widened(program: Program, angle_rad: float, reach_um: float) -> Iterator[Finding]:
+    """3B708: the path has the offset of an upright wire in it, half a kerf, and leans by an angle throughout."""
+    header_um = program.header.get("offset_um")
+    needed_um = reach_um / float(np.cos(angle_rad))
+    if not isinstance(header_um, float) or needed_um - header_um <= _OFFSET_UM:
+        return
+    if abs(header_um - reach_um) < _OFFSET_UM:
+        off_um = needed_um - header_um
+        yield _at(program, "3B708", 0, offset_mm=mm(header_um), off=off_um, needed_mm=mm(needed_um))
 
 
 def _turned(program: Program, path: TiltedPath) -> Iterator[Finding]:
@@ -62,7 +75,8 @@ def _turned(program: Program, path: TiltedPath) -> Iterator[Finding]:
 
 def _guides(program: Program, path: TiltedPath, guides: Guides) -> Iterator[Finding]:
     """3B702, 3B703 and 3B710: U, V or the angle go farther than the machine does."""
-    row, reach = path.reach()
+    row, axes = path.sampled_axes_um()
+    reach = axes[:, 2:]
     if guides.travel_u_um == 0.0 or guides.travel_v_um == 0.0:
         yield _at(program, "3B710", int(row[np.argmax(np.hypot(*reach.T))]))
         return
@@ -82,10 +96,10 @@ def _guides(program: Program, path: TiltedPath, guides: Guides) -> Iterator[Find
 
 def _travel(program: Program, path: TiltedPath, table: TableModel, start_um: tuple[float, float]) -> Iterator[Finding]:
     """3B704: the lower guide leaves the travel of X and Y, where the path of the program plane does not."""
-    row, place = path.guide_places()
+    row, axes = path.sampled_axes_um()
     shift = np.array(start_um) - program.toolpath.start_um[0]
     travel = from_mm(np.array([table.travel_x_mm, table.travel_y_mm]))
-    on_table = place + shift
+    on_table = axes[:, :2] + shift
     beyond = np.maximum(-on_table, on_table - travel).max(axis=1)
     out = np.flatnonzero(beyond > _HAIR_UM)
     if not len(out):
@@ -103,11 +117,11 @@ def _travel(program: Program, path: TiltedPath, table: TableModel, start_um: tup
     )
 
 
-def _uneven(program: Program, path: TiltedPath) -> Iterator[Finding]:
+def _uneven(program: Program) -> Iterator[Finding]:
     """3B706: one of two blocks that are run together is far longer than the other, by the size of their contours."""
     if program.toolpath.upper is None:
         return
-    cut = program.toolpath.kind != CurveKind.JUMP
+    cut = ~program.toolpath.is_jump
     lengths = [np.where(cut, of.length_um, 0.0) for of in (program.toolpath, program.toolpath.upper)]
     sizes = [max(float(length.sum()), 1.0) for length in lengths]
     lower, upper = (length / size for length, size in zip(lengths, sizes, strict=True))
@@ -143,7 +157,7 @@ def _crossing(program: Program, path: TiltedPath) -> Iterator[Finding]:
 def _first_crossing(toolpath: Toolpath) -> int | None:
     """The first row in which a path crosses itself; None where it does not."""
     crossings = find_crossings(toolpath, contour_rows(toolpath), find_passes(toolpath))
-    firsts = [each.first[0] for each in crossings if each.first is not None]
+    firsts = [each.first.later_row for each in crossings if each.first is not None]
     return min(firsts, default=None)
 
 

@@ -97,12 +97,12 @@ def _program(scenario: "Scenario") -> "Program":
     from sim.check.travel import refuse_too_large
     from sim.cli.scenario_options import refused
     from sim.jobs.shop import program_read, source_of
-    from sim.run.prepare import as_run
+    from sim.run.prepare import as_run_in
 
     try:
         program = moving(program_read(scenario, source_of(scenario)))
         refuse_too_large(program)
-        return as_run(program, scenario.offset)
+        return as_run_in(program, scenario)
     except ProgramError as error:
         raise refused(scenario, error) from None
 

@@ -1,6 +1,6 @@
 """What a tilted wire leaves: its cut at several heights, and pieces that reach through all of them.
 
-At each height the wire's way is a contour of its own (`TiltedPath.section`), and the kerf there reaches to both sides
+At each height the wire's way is a contour of its own (`Ruled.section`), and the kerf there reaches to both sides
 of it by more than that of an upright wire: a round wire that leans by T across its wall cuts an ellipse, 1 / cos T as
 wide.
 """
@@ -20,6 +20,7 @@ from sim.cut.pieces.pieces import Piece, Pieces
 from sim.cut.regions import RegionError
 from sim.cut.remains import pieces_left
 from sim.cut.wire_lag import bowed
+from sim.cut.wire_rows import WireRows
 from sim.setup.scenario import Scenario
 from sim.table.tilted import FourAxes
 from sim.table.trace import Trace
@@ -27,7 +28,7 @@ from sim.table.trace import Trace
 _SHARES: Final = (0.0, 0.25, 0.5, 0.75, 1.0)
 """Heights at which a cut is looked at, as shares of the work; the program plane comes to them."""
 _ALIKE: Final = 1e-6
-_MM2_PER_UM2, _MM3_PER_UM3 = 1e-6, 1e-9
+_MM3_PER_UM3: Final = 1e-9
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -121,59 +122,77 @@ class TiltedCut:
         return sum(solid.volume_mm3 for solid in self.solids) if self.solids else None
 
 
-class UprightWire(NamedTuple):
-    """Half the kerf, and the lag, of an upright wire in each row (n,) of the toolpath, µm."""
+def tilted_cut(program: Program, axes: FourAxes, scenario: Scenario, wire: WireRows, *, kerf: bool) -> TiltedCut:
+    """The cut of a wire between guides that moved so; with `kerf` its pieces too.
 
-    reach_um: Floats
-    lag_um: Floats
-
-
-def tilted_cut(program: Program, axes: FourAxes, scenario: Scenario, wire: UprightWire, *, kerf: bool) -> TiltedCut:
-    """The cut of a wire between guides that moved so; with `kerf` its pieces too."""
-    path = axes.path
+    `wire` is an upright one in each row of the toolpath.
+    """
+    path, share = axes.path, axes.shares()
     work_um = path.heights.work_um
     heights = sorted({*(share * work_um for share in _SHARES), path.heights.program_um})
-    sections = tuple(_section(program, axes, scenario, wire, z_um, kerf=kerf) for z_um in heights)
+    across = path.ruled.across(axes.lower.row, share)
+    moved = _Moved(program, axes, share, across, path.across_rad(), wire)
+    sections = tuple(_section(moved, z_um, scenario if kerf else None) for z_um in heights)
     volume = sum(abs(path.ruled.volume_um3(loop, 0.0, work_um)) for loop in path.loops) * _MM3_PER_UM3
     return TiltedCut(axes, sections, volume, _solids(sections, work_um, scenario))
 
 
-def _section(  # noqa: PLR0913 - what is cut, along what, how wide and where
-    program: Program, axes: FourAxes, scenario: Scenario, wire: UprightWire, z_um: float, *, kerf: bool
-) -> Section:
-    path = axes.path
-    curves, row = path.section(z_um)
+class _Moved(NamedTuple):
+    """A wire that moved along its program.
+
+    Attributes
+    ----------
+    program, axes
+        What it cut, and how its guides moved.
+    share, across
+        (n,) shares of rows at the samples of the lower guide, and (n, 2) directions across the walls there.
+    wall_rad
+        (m,) by how much it leans across the wall of each row of its path.
+    wire
+        An upright one in each row of the toolpath.
+    """
+
+    program: Program
+    axes: FourAxes
+    share: Floats
+    across: Floats
+    wall_rad: Floats
+    wire: WireRows
+
+
+def _section(moved: _Moved, z_um: float, scenario: Scenario | None) -> Section:
+    """The cut at a height, with its pieces where a scenario says out of what."""
+    program, path = moved.program, moved.axes.path
+    curves, row = path.ruled.section(z_um)
     programmed = sum(abs(path.ruled.area_um2(loop, z_um)) for loop in path.loops)
     closed = curves.picked(np.isin(row, np.concatenate([np.zeros(0, dtype=np.int64), *path.loops])))
     low, high = extents(closed if len(closed) else curves)
     source = path.source_row[row]
     toolpath = section_toolpath(program.toolpath, curves, source)
-    trace = _trace(axes, z_um, toolpath, row, wire.lag_um[source])
+    wire_um = moved.axes.wire_um(z_um)
+    trace = _trace(moved, wire_um, toolpath, row)
     pieces = None
-    if kerf:
-        reach = wire.reach_um[source] / np.cos(path.across_rad())[row]
+    if scenario is not None:
+        reach = moved.wire.reach_um[source] / np.cos(moved.wall_rad)[row]
         pieces = _pieces(replace(program, toolpath=toolpath), trace, scenario, reach)
-    off = _off_um(axes, z_um)
+    off = _off_um(moved, wire_um, z_um)
     return Section(z_um, curves, programmed, low.min(axis=0), high.max(axis=0), off, trace, pieces)
 
 
-def _trace(axes: FourAxes, z_um: float, toolpath: Toolpath, row: Ints, lag_um: Floats) -> Trace:
-    """The trace of the wire at a height, by the rows of the section there; bowed back where it lags."""
-    first = np.searchsorted(row, np.arange(len(axes.path.ruled)))
-    count = np.bincount(row, minlength=len(axes.path.ruled))
-    at, share = axes.lower.row, axes.shares()
-    chord = np.minimum((share * count[at]).astype(np.int64), count[at] - 1)
-    wire = axes.wire_um(z_um)
-    trace = Trace(axes.lower.t_s, wire, wire, wire, first[at] + chord)
-    return bowed(trace, toolpath, lag_um)
+def _trace(moved: _Moved, wire_um: Floats, toolpath: Toolpath, row: Ints) -> Trace:
+    """The trace of a straight wire (n, 2) at a height, by the rows of the section there; bowed back where it lags."""
+    lower, rows = moved.axes.lower, len(moved.axes.path.ruled)
+    first, count = np.searchsorted(row, np.arange(rows)), np.bincount(row, minlength=rows)[lower.row]
+    chord = np.minimum((moved.share * count).astype(np.int64), count - 1)
+    trace = Trace(lower.t_s, wire_um, wire_um, wire_um, first[lower.row] + chord)
+    return bowed(trace, toolpath, moved.wire.lag_um[moved.axes.path.source_row[row]])
 
 
-def _off_um(axes: FourAxes, z_um: float) -> float:
-    """The most by which the straight wire was off its wall at a height, across it."""
-    path, row, share = axes.path, axes.lower.row, axes.shares()
-    off = axes.wire_um(z_um) - path.ruled.places(row, share, z_um)
-    across = path.across(row, share)
-    return float(np.abs((off * across).sum(axis=1)).max(initial=0.0))
+def _off_um(moved: _Moved, wire_um: Floats, z_um: float) -> float:
+    """The most by which a straight wire (n, 2) was off its wall at a height, across it."""
+    path, row = moved.axes.path, moved.axes.lower.row
+    off = wire_um - path.ruled.places(row, moved.share, z_um)
+    return float(np.abs((off * moved.across).sum(axis=1)).max(initial=0.0))
 
 
 def _pieces(program: Program, trace: Trace, scenario: Scenario, reach_um: Floats) -> Pieces | None:

@@ -15,6 +15,7 @@ from controller.offset.compensate import compensate
 from controller.offset.passes import PassedPath, PassedRound, first_without_way_back, in_passes
 from controller.offset.shifted import Side, closed_contour, rounds_of
 from controller.stepping.steps import Steps, interpolate
+from controller.taper.tilted import TiltedPath
 from parser.dialect.reader import in_codes
 from parser.findings.codes import Check, Severity
 from parser.findings.errors import ProgramError, SettingsError
@@ -24,6 +25,7 @@ from parser.program import Program
 from parser.shape.passes import Passes, find_passes, pass_numbers
 from parser.toolpath import Toolpath
 from sim.check.compensation.check import WithoutValue, compensation_of, is_known
+from sim.check.lean import LeanDemands, leaning_offset, tilted_path, with_upper
 from sim.check.offset import (
     Distances,
     Offsetting,
@@ -38,10 +40,12 @@ from sim.check.offset import (
 from sim.check.passes import asked_pass_findings
 from sim.check.path_checks import Checked, Demands, run_checks
 from sim.check.result import CheckState, Coverage
+from sim.check.taper import not_widened, taper_findings
 from sim.check.travel import refusal, too_many_steps, travel_findings
 from sim.setup.part import Offset
 from sim.setup.quiz import refuse_unanswerable
 from sim.setup.scenario import Scenario
+from sim.setup.taper import TaperSettings
 
 
 def offsetting(program: Program, offset: Offset) -> Offsetting:
@@ -102,8 +106,13 @@ def refuse_unknown(program: Program, findings: Sequence[Finding]) -> None:
         raise ProgramError(finding, excerpt=program.excerpt(finding.line))
 
 
+def as_run_in(program: Program, scenario: Scenario) -> Program:
+    """The program with the path that the controller of a scenario makes of it. Raises what `as_run` does."""
+    return as_run(program, leaning_offset(scenario.offset, scenario.taper))
+
+
 def as_run(program: Program, offset: Offset | None) -> Program:
-    """The program with the path that the controller makes of it: by its own compensation, by an offset, or as written.
+    """The program with the path that a controller makes of it: by its own compensation, by an offset, or as written.
 
     SettingsError where both are asked for, ProgramError where it cannot run.
     """
@@ -144,6 +153,8 @@ class Prepared(NamedTuple):
         How fast each block is to be run.
     findings, coverage
         Of the program as it was read, and of its offset; and how far their checks came.
+    tilt
+        The way of a wire that leans; None of an upright one.
     """
 
     program: Program
@@ -152,14 +163,25 @@ class Prepared(NamedTuple):
     feeds: Feeds
     findings: tuple[Finding, ...]
     coverage: Coverage
+    tilt: TiltedPath | None = None
 
 
 def prepare(program: Program, scenario: Scenario) -> Prepared:
-    """Check a program, and add the offset of the scenario.
+    """Check a program, add the offset of the scenario, and let the wire lean.
 
-    ProgramError where no table can do what it asks for, SettingsError where the scenario asks about a block that the
-    program does not have.
+    ProgramError where no table can do what it asks for, or where its blocks and those of its upper contour do not
+    match; SettingsError where the scenario asks about a block that the program does not have, and for what
+    `tilted_path` refuses.
     """
+    taper = scenario.taper
+    program = with_upper(program, taper)
+    ready = _in_plane(program, replace(scenario, offset=leaning_offset(scenario.offset, taper)))
+    demands = LeanDemands(taper or TaperSettings(), scenario.known_guides, scenario.thickness_mm)
+    return ready._replace(tilt=tilted_path(program, ready.offset, demands))
+
+
+def _in_plane(program: Program, scenario: Scenario) -> Prepared:
+    """A program with the offset of a scenario, both as they are in the program plane."""
     checked, steps = checked_for(program, scenario)
     feeds = _feeds(program, scenario)
     refuse_unknown(program, checked.findings)
@@ -180,6 +202,23 @@ def prepare(program: Program, scenario: Scenario) -> Prepared:
     named = program.toolpath.source.names.named(in_codes(program.reading, added))
     findings = (*_under_offset(checked.findings), *named)
     return Prepared(offset.program, steps, offset, feeds, findings, coverage)
+
+
+def tilt_findings(ready: Prepared, scenario: Scenario) -> Iterator[Finding]:
+    """Findings 3B701 to 3B710 on a wire that leans; none on an upright one."""
+    if ready.tilt is None:
+        return
+    table, start_um = scenario.machine.table, scenario.start_um
+    yield from taper_findings(ready.program, ready.tilt, scenario.known_guides, table, start_um)
+    if ready.offset is None and scenario.taper is not None and scenario.taper.angle_rad:
+        yield from not_widened(ready.program, scenario.taper.angle_rad, scenario.wire.reach_um)
+
+
+def in_file_order(ready: Prepared, found: Sequence[Finding]) -> tuple[Finding, ...]:
+    """All findings in file order, those `found` beyond the checks in the codes of the program's dialect."""
+    program = ready.program
+    coded = program.toolpath.source.names.named(in_codes(program.reading, found))
+    return tuple(sorted([*ready.findings, *coded], key=file_order))
 
 
 def _feeds(program: Program, scenario: Scenario) -> Feeds:

@@ -6,7 +6,6 @@ What a run leaves, worked out as far as its scenario asks: kerf, pieces and size
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -14,16 +13,13 @@ import numpy as np
 from controller.card.log import CardLog
 from controller.motion.limits import Feeds
 from controller.stepping.pulses import Pulses
-from controller.taper.tilted import TiltedPath
-from parser.dialect.reader import in_codes
 from parser.drawing.model import Drawing
-from parser.findings.findings import Finding, WithoutOffset, file_order, telling
+from parser.findings.findings import Finding, WithoutOffset, telling
 from parser.geometry.curves import Floats
 from parser.program import Program
 from parser.shape.contours import Contour, find_contours
 from parser.shape.passes import Pass, find_passes
 from sim.base.progress import Progress, silent
-from sim.check.lean import leaning_offset, with_upper
 from sim.check.result import CheckState
 from sim.cut.findings import missed_work_findings, obstacle_findings, piece_findings, region_finding
 from sim.cut.regions import RegionError
@@ -36,9 +32,9 @@ from sim.measure.compare.result import Comparison
 from sim.measure.kerf_fit import offset_findings, tolerance_findings
 from sim.measure.passes import PassFigures, figures_of_passes, wire_taken
 from sim.run.dryrun import DryRun, Ending, PulseSink, motion_to_end, trip_of
-from sim.run.prepare import Prepared, prepare
+from sim.run.prepare import Prepared, in_file_order, prepare, tilt_findings
 from sim.run.sparks import check_states, cut_under_sparks, stop_findings, work_of
-from sim.run.tilt import cut_tilted, tilt_findings, tilt_of, with_tilt
+from sim.run.tilt import cut_tilted, lost_findings, with_tilt
 from sim.setup.part import DrawingTarget
 from sim.setup.scenario import Scenario
 from sim.table.losses import loss_findings
@@ -110,8 +106,7 @@ def left_of(  # noqa: PLR0913, PLR0917 - all that is known of the cut, and whom 
 class Along(NamedTuple):
     """What is run: a program that is ready, its motion, where that ends early, its pulses, and its feeds.
 
-    `tilt` is the way of a wire that leans. What it leaves is `measured` where someone looks at its sizes, and at how
-    its pieces can move.
+    What it leaves is `measured` where someone looks at its sizes, and at how its pieces can move.
     """
 
     ready: Prepared
@@ -120,7 +115,6 @@ class Along(NamedTuple):
     pulses: Iterator[Pulses]
     feeds: Feeds | None
     measured: bool = True
-    tilt: TiltedPath | None = None
 
 
 def dry_run(  # noqa: PLR0913 - whom it tells
@@ -141,12 +135,11 @@ def dry_run(  # noqa: PLR0913 - whom it tells
     drawing cannot be read.
     """
     progress("checks", 0, 1)
-    program, drawing = with_upper(program, scenario.taper), drawing_of(scenario.drawing)
-    ready = prepare(program, replace(scenario, offset=leaning_offset(scenario.offset, scenario.taper)))
-    tilt = tilt_of(program, ready, scenario)
+    drawing = drawing_of(scenario.drawing)
+    ready = prepare(program, scenario)
     progress("plan", 0, 1)
     motion, ended = motion_to_end(ready, scenario)
-    along = Along(ready, motion, ended, driven(motion, log), ready.feeds, measured, tilt)
+    along = Along(ready, motion, ended, driven(motion, log), ready.feeds, measured)
     return run_along(along, scenario, drawing, progress, sink)
 
 
@@ -158,7 +151,7 @@ def run_along(
     sink: PulseSink | None = None,
 ) -> DryRun:
     """Let the table follow what is run, and tell all that came of it; the pulses go to `sink`, too."""
-    ready, motion, ended, pulses, feeds, measured, tilt = along
+    ready, motion, ended, pulses, feeds, measured = along
     program, toolpath = ready.program, ready.program.toolpath
     meters = Meters(motion, ready.steps)
     moved = _followed(motion, pulses, meters, sink, progress)
@@ -174,9 +167,9 @@ def run_along(
     figures = figures_of_passes(toolpath, passes, block_time_s, wire_taken(toolpath, plan, cut), wire.reach_um)
     process = cut_under_sparks(work_of(ready.steps, toolpath, scenario, figures, wire), scenario, ended)
     reach_um = wire.reach_um if process is None else wire.reach_um + process.wider_um
-    tilted = cut_tilted(ready, tilt, scenario, wire._replace(reach_um=reach_um))
-    if tilt is not None:
-        reach_um = reach_um / np.cos(tilt.wall_rad(len(toolpath)))
+    tilted = cut_tilted(ready, scenario, wire._replace(reach_um=reach_um))
+    if ready.tilt is not None:
+        reach_um = reach_um / np.cos(ready.tilt.wall_rad(len(toolpath)))
     is_whole = ended is None
     left = left_of(program, cut, contours, scenario, drawing, reach_um, progress, is_whole=is_whole, measured=measured)
     found = [
@@ -184,9 +177,10 @@ def run_along(
         *left.findings,
         *_fits(ready, scenario, figures, wire, left.comparison),
         *stop_findings(program, process),
-        *tilt_findings(ready, tilted, scenario),
+        *tilt_findings(ready, scenario),
+        *lost_findings(program, tilted, scenario),
     ]
-    states = with_tilt((*ready.coverage.checks, left.state, *check_states(process)), tilt)
+    states = with_tilt((*ready.coverage.checks, left.state, *check_states(process)), ready.tilt)
     return DryRun(
         program=program,
         scenario=scenario,
@@ -209,7 +203,7 @@ def run_along(
         reach_um=reach_um,
         remains=left.remains,
         comparison=left.comparison,
-        findings=_in_order(ready, found),
+        findings=in_file_order(ready, found),
         checked=ready.findings,
         coverage=ready.coverage._replace(checks=states),
     )
@@ -252,13 +246,6 @@ def _fits(
     if comparison is not None:
         last = [each.of.first for each in figures if each.of.shift_um <= each.of.edge_um]
         yield from tolerance_findings(program, comparison, float(np.abs(wire.spread_um[last]).max(initial=0.0)))
-
-
-def _in_order(ready: Prepared, found: list[Finding]) -> tuple[Finding, ...]:
-    """All findings in file order, those that a run `found` in the codes of the program's dialect."""
-    program = ready.program
-    coded = program.toolpath.source.names.named(in_codes(program.reading, found))
-    return tuple(sorted([*ready.findings, *coded], key=file_order))
 
 
 def _met(

@@ -11,7 +11,7 @@ from controller.taper.tilted import Heights
 from parser.files import read_bytes
 from parser.findings.errors import SettingsError
 from parser.text.encoding import printable
-from parser.units import from_mm
+from parser.units import from_mm, mm
 from sim.setup.machine.guides import ANGLE_DEG, Guides
 from sim.setup.part import SideWord
 from sim.setup.toml.keys import Key, Section
@@ -88,7 +88,7 @@ def heights_of(taper: TaperSettings, guides: Guides, thickness_mm: float) -> Hei
     """Planes and guides about work of a thickness. SettingsError where the program plane lies outside of it."""
     work_um = from_mm(thickness_mm)
     if taper.program_plane_um > work_um:
-        raise SettingsError("plane-outside-work", plane_mm=taper.program_plane_um / 1e3, thickness_mm=thickness_mm)
+        raise SettingsError("plane-outside-work", plane_mm=mm(taper.program_plane_um), thickness_mm=thickness_mm)
     return Heights(work_um, taper.program_plane_um, -guides.lower_um, work_um + guides.upper_um)
 
 

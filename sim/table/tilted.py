@@ -7,9 +7,10 @@ import numpy as np
 
 from controller.motion.limits import Feeds
 from controller.motion.plan import Plan
-from controller.taper.axes import AxisLimits, guide_pulses, plan_guides
+from controller.taper.axes import AxisLimits, guide_pulses, plan_guides, whole_um
 from controller.taper.tilted import TiltedPath
 from parser.geometry.curves import Floats, Ints, total_before
+from parser.units import from_mm
 from sim.setup.machine.guides import Guides
 from sim.setup.machine.machine import Machine
 from sim.table.follow import Following, Setup
@@ -44,15 +45,14 @@ class FourAxes(NamedTuple):
     def wire_um(self, z_um: float) -> Floats:
         """Where the wire was at a height (n, 2), at the samples of the lower guide."""
         heights = self.path.heights
-        share = (z_um - heights.lower_guide_um) / (heights.upper_guide_um - heights.lower_guide_um)
+        share = (z_um - heights.lower_guide_um) / heights.span_um
         aside = [np.interp(self.lower.t_s, self.aside.t_s, column) for column in self.aside.table_um.T]
         wire: Floats = self.lower.table_um + share * np.stack(aside, axis=1)
         return wire
 
     def shares(self) -> Floats:
         """(n,) the share of its row that was to be done at each sample of the lower guide."""
-        ruled = self.path.ruled
-        length = np.maximum(ruled.lower.length_um, ruled.upper.length_um)
+        length = self.path.ruled.length_um
         done = self.plan.at(self.lower.t_s).along_um - total_before(length)[self.lower.row]
         size = length[self.lower.row]
         return np.clip(done / np.where(size > 0.0, size, 1.0), 0.0, 1.0)
@@ -72,22 +72,23 @@ def follow_tilted(  # noqa: PLR0913, PLR0917 - what moves, by what, how fast, an
     (fast_x, fast_y), (fast_u, fast_v) = limits.axis_speed_um_s, guides.speed_um_s
     (quick_x, quick_y), (quick_u, quick_v) = limits.axis_acceleration_um_s2, guides.acceleration_um_s2
     axes = AxisLimits((fast_x, fast_y, fast_u, fast_v), (quick_x, quick_y, quick_u, quick_v))
-    _, plan = plan_guides(path, feeds, limits, axes, rests)
-    ruled = path.ruled
-    length = np.maximum(ruled.lower.length_um, ruled.upper.length_um)
+    planned, ruled = plan_guides(path, feeds, limits, axes, rests), path.ruled
+    plan = planned.plan
     longer = ruled.upper if ruled.upper.length_um.sum() > ruled.lower.length_um.sum() else ruled.lower
-    ways = replace(longer, length_um=length)
+    ways = replace(longer, length_um=ruled.length_um)
     head = guides.head(machine.table)
+    x, y, u, v = whole_um(path.axes_um(np.zeros(1, dtype=np.int64), np.zeros(1)))[0].tolist()
+    middle_um = from_mm(head.travel_x_mm) / 2.0, from_mm(head.travel_y_mm) / 2.0
     pairs = [
-        (machine.table, start_um, _whole(path, is_aside=False), (fast_x, fast_y)),
-        (head, _middle(head.travel_x_mm, head.travel_y_mm), _whole(path, is_aside=True), (fast_u, fast_v)),
+        (machine.table, start_um, (x, y), (fast_x, fast_y)),
+        (head, middle_um, (u, v), (fast_u, fast_v)),
     ]
     tables = [
         Following(Setup(model, start, origin, speed, machine.engine), choose_ticks(ways, plan, rhythm(model), sampling))
         for model, start, origin, speed in pairs
     ]
     counts = [0, 0]
-    for both in guide_pulses(path, plan):
+    for both in guide_pulses(path, planned):
         for at, (table, pulses) in enumerate(zip(tables, both, strict=True)):
             if len(pulses.t_s):
                 table.take(pulses)
@@ -95,20 +96,3 @@ def follow_tilted(  # noqa: PLR0913, PLR0917 - what moves, by what, how fast, an
     moved = [table.finish() for table in tables]
     (lower, _, lost_xy, *_), (aside, _, lost_uv, *_) = moved
     return FourAxes(path, plan, lower, aside, lost_xy, lost_uv, (counts[0], counts[1]))
-
-
-def _whole(path: TiltedPath, *, is_aside: bool) -> tuple[int, int]:
-    """Where a pair of axes begins, in whole µm."""
-    row, share = np.zeros(1, dtype=np.int64), np.zeros(1)
-    if is_aside:
-        span_um = path.heights.upper_guide_um - path.heights.lower_guide_um
-        place = path.ruled.leans(row, share) * span_um
-    else:
-        place = path.ruled.places(row, share, path.heights.lower_guide_um)
-    x, y = np.rint(np.round(place[0], 6)).astype(int).tolist()
-    return x, y
-
-
-def _middle(x_mm: float, y_mm: float) -> tuple[float, float]:
-    """The middle of a travel, µm."""
-    return 500.0 * x_mm, 500.0 * y_mm

@@ -30,7 +30,7 @@ def planned(path: TiltedPath, feed_um_s: float = 100.0, axes: AxisLimits = FREE)
 
 
 def driven(path: TiltedPath, plan: GuidePlan) -> tuple[Pulses, Pulses]:
-    pairs = list(guide_pulses(path, plan.plan))
+    pairs = list(guide_pulses(path, plan))
     return tuple(  # type: ignore[return-value]
         Pulses(*(np.concatenate(column) for column in zip(*(pair[at] for pair in pairs), strict=True))) for at in (0, 1)
     )

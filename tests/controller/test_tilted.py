@@ -80,7 +80,7 @@ def test_sections_are_those_of_an_independent_ruled_surface(seed: int, planes_mm
     planes = (1000.0 * planes_mm[0], 1000.0 * planes_mm[1])
     path = between_contours(toolpath, upper, HEIGHTS, planes)
     for z_um in (0.0, 10_000.0, 20_000.0, 30_000.0, 40_000.0):
-        curves, row = path.section(z_um)
+        curves, row = path.ruled.section(z_um)
         source = path.source_row[row]
         parts = np.bincount(source)[source]
         number = np.arange(len(source)) - np.searchsorted(source, source)

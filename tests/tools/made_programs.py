@@ -18,7 +18,7 @@ from sim.make.cam.planned import PlanRequest, planned
 from sim.make.cam.proof import ToProve, proved
 from sim.make.cam.target import Proof
 from sim.make.cam.visits import visited
-from sim.make.convert import proof as held_against
+from sim.make.conversion_proof import proof as held_against
 from sim.make.wanted import Wanted, read_with, written
 from sim.setup.making import Making
 from sim.setup.scenario import Scenario

@@ -22,7 +22,7 @@ from parser.iso.path.order_checks import order_findings
 from parser.iso.path.places import Modes, bare_place
 from parser.iso.path.registers import Run, run_of
 from parser.iso.path.rows import ROUNDING, Rows, source
-from parser.iso.path.taper import Lean, lean_of
+from parser.iso.path.taper import ProgrammedLean, lean_of
 from parser.iso.profiles.profile import Profile
 from parser.text.source import Span
 from parser.toolpath import Stop, Toolpath
@@ -229,7 +229,7 @@ def moved(listing: Listing, profile: Profile, choices: Choices) -> Moved:
     )
 
 
-def _toolpath(given: GivenColumns, run: Run, lean: Lean) -> Toolpath:
+def _toolpath(given: GivenColumns, run: Run, lean: ProgrammedLean) -> Toolpath:
     curves = run.rows.curves
     return Toolpath(
         **{name: getattr(curves, name) for name in Curves.__slots__},

@@ -1,4 +1,4 @@
-"""How the wire leans: by G51 and G52 with an angle, by U and V, or along a second contour (docs/iso.md §11).
+"""How the wire leans: by G51 and G52 with an angle, by U and V, or along a second contour (docs/taper.md).
 
 Words of angles: the profile has their letter; in a block of G51 or G52 both A and T are one. An angle without a point
 that is no angle of a wire stands in thousandths of a degree, as in EDM_NC (decode.cpp).
@@ -24,7 +24,7 @@ _THOUSANDTH: Final = 1e-3
 _STILL_UM = 1e-3
 
 
-class Lean(NamedTuple):
+class ProgrammedLean(NamedTuple):
     """How the wire leans along the rows of a path.
 
     Attributes
@@ -42,13 +42,13 @@ class Lean(NamedTuple):
     is_known: bool
 
 
-def lean_of(given: GivenColumns, run: Run) -> Lean:
+def lean_of(given: GivenColumns, run: Run) -> ProgrammedLean:
     """How the wire leans by the words of its blocks; upright where nothing says more."""
     taper, has_angles = _taper(given, run)
     upper, is_line = _upper(given, run)
     compensates = run.offsets is not None and bool(np.nan_to_num(run.offsets.by_um, nan=1.0).any())
     is_known = has_angles and is_line and not (upper is not None and (taper is not None or compensates))
-    return Lean(taper, upper, is_known) if is_known else Lean(None, None, is_known=False)
+    return ProgrammedLean(taper, upper, is_known) if is_known else ProgrammedLean(None, None, is_known=False)
 
 
 def _taper(given: GivenColumns, run: Run) -> tuple[Taper | None, bool]:

@@ -169,7 +169,7 @@ def _done(mode: str, work: "_Work", found: "Jobs") -> int:
     """Show, mend or check the files; the exit code."""
     language = work.style.language
     if mode in ("--show-files", "--show-settings"):
-        from sim.cli.check.jobs import show_files, show_settings
+        from sim.cli.check.shown import show_files, show_settings
 
         return show_files(found, language) if mode == "--show-files" else show_settings(found, work.options, language)
     if mode == "--diff":
@@ -261,7 +261,7 @@ def _check(work: _Work, found: "Jobs") -> int:
     write(results, work.outputs, work.style._replace(help_uri=found.help_uri))
     printer.write(ledger.closed(language), err=True)
     if found.passed_over and not work.style.quiet:
-        from sim.cli.check.jobs import passed_over_text
+        from sim.cli.check.shown import passed_over_text
 
         printer.say(passed_over_text(found.passed_over, language), err=True)
     return outcome.exit_code(language)

@@ -32,8 +32,8 @@ from sim.make.cam.passes import figure_cut
 from sim.make.cam.planned import PlanRequest, as_cut, planned
 from sim.make.cam.proof import ToProve, proved
 from sim.make.cam.target import Proof, least_um, target_of
-from sim.make.convert import Proof as HeldAgainst
-from sim.make.convert import proof as held_against
+from sim.make.conversion_proof import Proof as HeldAgainst
+from sim.make.conversion_proof import proof as held_against
 from sim.make.wanted import (
     Wanted,
     begun,

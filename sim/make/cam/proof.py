@@ -26,7 +26,7 @@ from sim.cut.pieces.pieces import Piece, Pieces
 from sim.make.cam.model import CutPlan, FigureCut, NotProved, with_sides
 from sim.make.cam.target import AsRun, Faces, Fault, Proof, Target, as_run, target_of
 from sim.make.cam.visits import figure_rows
-from sim.make.convert import Proof as Written
+from sim.make.conversion_proof import Proof as Written
 from sim.measure.compare.compare import compare_program
 from sim.measure.compare.findings import by_block, by_entity, compare_cut, drawing_findings
 from sim.measure.compare.result import Comparison, FitRequest

@@ -25,7 +25,7 @@ from sim.make.cam.visits import Spans, figure_rows
 from sim.measure.compare.compare import compare_program
 from sim.measure.compare.result import FitRequest
 from sim.measure.compare.starts import IN_PLACE, Placement, placed, turning
-from sim.run.prepare import as_run
+from sim.run.prepare import as_run_in
 from sim.serve.page.answers import leads_shown, printable_entry
 from sim.serve.page.child import PageRequest, do_each, written
 from sim.serve.page.form import scenario_of
@@ -74,7 +74,7 @@ def _placement(request: PageRequest, drawing: Drawing, target: DrawingTarget) ->
 def _path(request: PageRequest, scenario: Scenario) -> Toolpath:
     """The path of the page's program, as the controller makes it."""
     program = moving(load_program(request["text"].encode("utf-8", "replace"), request["name"], scenario.choices))
-    return as_run(program, scenario.offset).toolpath
+    return as_run_in(program, scenario).toolpath
 
 
 def _plan(request: PageRequest) -> dict[str, Any]:

@@ -8,6 +8,7 @@ from parser.text.source import BlockNames
 from sim.run.dryrun import DryRun
 from sim.run.report.model import ReportDocument
 from sim.run.report.run_model import CauseEntry, PassEntry, SparkMomentEntry
+from sim.run.report.taper import TaperEntry
 from sim.setup.key_words import value_word
 from sim.show.report_page.findings import address
 from sim.show.report_page.tables import (
@@ -254,54 +255,60 @@ def spark_tables(run: DryRun, report: ReportDocument) -> list[ReportTable]:
 def taper_tables(report: ReportDocument) -> list[ReportTable]:
     """The cut of a wire that leans: its figures, its sections and its pieces; none of an upright one."""
     taper = report["taper"]
-    if taper is None:
-        return []
-    sections, pieces = taper["sections"], taper["pieces"]
-    boxes = column_of(sections, "box_mm")
-    return [
-        ReportTable(
-            "taper",
-            (
-                Column(bilingual("report.taper-angle"), [taper["angle_deg"]], "number", "°", 1.0, 3),
-                Column(bilingual("report.lean-most"), [taper["lean_most_deg"]], "number", "°", 1.0, 3),
-                millimetres("uv-walls", [taper["uv_most_um"]["side"]]),
-                millimetres("uv-most", [taper["uv_most_um"]["corner"]]),
-                Column(
-                    bilingual("report.volume-programmed"), [taper["volume_mm3"]["programmed"]], "number", "mm³", 1.0, 2
-                ),
-                Column(bilingual("report.volume-pieces"), [taper["volume_mm3"]["piece"]], "number", "mm³", 1.0, 2),
-                yes_or_no("guides-assumed", [taper["guides_assumed"]]),
-            ),
+    return [] if taper is None else [_lean_table(taper), _section_table(taper), _solid_table(taper)]
+
+
+def _lean_table(taper: TaperEntry) -> ReportTable:
+    """One row: how the wire leans, and what that comes to."""
+    volume = taper["volume_mm3"]
+    return ReportTable(
+        "taper",
+        (
+            _number("taper-angle", [taper["angle_deg"]], "°", 3),
+            _number("lean-most", [taper["lean_most_deg"]], "°", 3),
+            millimetres("uv-walls", [taper["uv_most_um"]["side"]]),
+            millimetres("uv-most", [taper["uv_most_um"]["corner"]]),
+            _number("volume-programmed", [volume["programmed"]], "mm³", 2),
+            _number("volume-pieces", [volume["piece"]], "mm³", 2),
+            yes_or_no("guides-assumed", [taper["guides_assumed"]]),
         ),
-        ReportTable(
-            "sections",
-            (
-                Column(bilingual("report.section-height"), column_of(sections, "z_mm"), "number", "mm", 1.0, 3),
-                Column(bilingual("report.section-width"), [box[0] for box in boxes], "number", "mm", 1.0, 3),
-                Column(bilingual("report.section-depth"), [box[1] for box in boxes], "number", "mm", 1.0, 3),
-                Column(
-                    bilingual("report.area-programmed"),
-                    column_of(sections, "programmed_area_mm2"),
-                    "number",
-                    "mm²",
-                    1.0,
-                    2,
-                ),
-                Column(bilingual("report.area-pieces"), column_of(sections, "piece_area_mm2"), "number", "mm²", 1.0, 2),
-                micrometres("off-wall", column_of(sections, "max_deviation_um")),
-            ),
+    )
+
+
+def _section_table(taper: TaperEntry) -> ReportTable:
+    """The cut at each height."""
+    sections = taper["sections"]
+    return ReportTable(
+        "sections",
+        (
+            _number("section-height", column_of(sections, "z_mm"), "mm", 3),
+            _number("section-width", column_of(sections, "box_mm.0"), "mm", 3),
+            _number("section-depth", column_of(sections, "box_mm.1"), "mm", 3),
+            _number("area-programmed", column_of(sections, "programmed_area_mm2"), "mm²", 2),
+            _number("area-pieces", column_of(sections, "piece_area_mm2"), "mm²", 2),
+            micrometres("off-wall", column_of(sections, "max_deviation_um")),
         ),
-        ReportTable(
-            "solids",
-            (
-                worded("solid", column_of(pieces, "kind")),
-                Column(bilingual("report.volume"), column_of(pieces, "volume_mm3"), "number", "mm³", 1.0, 2),
-                Column(bilingual("report.mass"), column_of(pieces, "mass_g"), "number", "g", 1.0, 1),
-                worded("larger", column_of(pieces, "larger")),
-                yes_or_no("falls", column_of(pieces, "drops")),
-            ),
+    )
+
+
+def _solid_table(taper: TaperEntry) -> ReportTable:
+    """Pieces through the whole work."""
+    pieces = taper["pieces"]
+    return ReportTable(
+        "solids",
+        (
+            worded("solid", column_of(pieces, "kind")),
+            _number("volume", column_of(pieces, "volume_mm3"), "mm³", 2),
+            _number("mass", column_of(pieces, "mass_g"), "g", 1),
+            worded("larger", column_of(pieces, "larger")),
+            yes_or_no("falls", column_of(pieces, "drops")),
         ),
-    ]
+    )
+
+
+def _number(head: str, values: list[Any], unit: str, digits: int) -> Column:
+    """Numbers that are shown as they are, in a unit."""
+    return Column(bilingual(f"report.{head}"), values, "number", unit, 1.0, digits)
 
 
 def _events(happened: list[SparkMomentEntry]) -> Column:

@@ -14,7 +14,7 @@ from parser.program import parse_program
 from parser.toolpath import Toolpath
 from parser.write.draft import draft_of
 from parser.write.iso import iso_choices, written_iso
-from sim.make.convert import proof
+from sim.make.conversion_proof import proof
 
 DRAFT = draft_of(parse_program(TWIN_3B + "").toolpath)
 MADE = written_iso(DRAFT, iso_choices("fast-wire"))

@@ -4,17 +4,21 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from parser.findings.errors import ProgramError, SettingsError
 from parser.program import load_program
 from sim.base.progress import silent
 from sim.run.dryrun import DryRun
+from sim.run.prepare import as_run_in, prepare
 from sim.run.report.document import build_report, report_text
 from sim.run.running import dry_run
+from sim.run.times.predicted import predicted
 from sim.setup.machine.guides import Guides
-from sim.setup.part import SIDES
-from sim.setup.scenario import load_scenario
+from sim.setup.part import SIDES, Offset, OffsetPass
+from sim.setup.scenario import Scenario, load_scenario
+from sim.setup.shop import Shop
 from sim.setup.taper import TaperSettings, UpperProgram, heights_of
 from sim.setup.wire import DEFAULT_WIRE
 
@@ -269,3 +273,21 @@ def test_wrong_keys_are_told(tmp_path: Path, text: str, complaint: str) -> None:
     (tmp_path / "scenario.toml").write_text(text)
     with pytest.raises(SettingsError, match=complaint):
         load_scenario(tmp_path)
+
+
+def test_whoever_reads_the_path_of_a_wire_that_leans_has_its_wider_offset(tmp_path: Path) -> None:
+    path = tmp_path / "part.3b"
+    path.write_bytes(PUNCH)
+    program = load_program(PUNCH, path.name)
+
+    def scenario(by_um: float, taper: TaperSettings | None) -> Scenario:
+        return replace(load_scenario(path), offset=Offset((OffsetPass(by_um),), SIDES["right"]), taper=taper)
+
+    leaning, wider = scenario(100.0, angle(45.0)), scenario(100.0 * 2.0**0.5, None)
+    lengths = [predicted(program, each, Shop()).length_mm for each in (scenario(100.0, None), leaning, wider)]
+    assert lengths[1] == pytest.approx(lengths[2], abs=1e-9)
+    assert lengths[1] > lengths[0] + 0.2
+    ends = [as_run_in(program, each).toolpath.end_um for each in (leaning, wider)]
+    assert np.abs(ends[0] - ends[1]).max() < 1e-6
+    assert prepare(program, leaning).tilt is not None
+    assert prepare(program, wider).tilt is None

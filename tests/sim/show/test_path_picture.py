@@ -14,7 +14,9 @@ from runs import plain_scenario, run_folder
 from parser.dialect.reader import Choices
 from parser.program import parse_program, read_program
 from sim.run.recording import NO_PIECES, Recording
+from sim.setup.part import SIDES
 from sim.setup.scenario import load_scenario
+from sim.setup.taper import TaperSettings
 from sim.show.draw.sheet import pixels
 from sim.show.draw.style import DARK, Paint
 from sim.show.pictures.cut.of_path import PATH, PathAlone, Programmed, cut_of_path, draw_path, programmed
@@ -153,6 +155,15 @@ def test_offsets_that_are_told_stand_in_the_note_to_a_tenth_of_a_micrometre() ->
     texts = draw_path(recording_sheet(), programmed(program, plain_scenario())).texts
     assert any("offset 0.2529, 0.1843 mm left" in text for text in texts)
     assert {"pass 1, offset 0.253 mm", "pass 2, offset 0.184 mm"} <= set(texts)
+
+
+def test_what_is_wrong_with_a_lean_is_found_before_anything_moves() -> None:
+    slot = "B10000B0B10000GXL1\nB0B200B200GYL2\nB10000B0B10000GXL3\nB0B200B200GYL4\nDD\n"
+    codes = [
+        [finding.code for finding in of_text(slot, taper=TaperSettings(angle_rad=0.1, side=side)).findings]
+        for side in (SIDES["left"], SIDES["right"])
+    ]
+    assert ["3B701" in each for each in codes] == [True, False]
 
 
 @pytest.mark.parametrize(("language", "said"), [("en", "gap 0.9 mm"), ("zh", "缺口 0.9 mm")])

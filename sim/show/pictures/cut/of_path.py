@@ -1,7 +1,6 @@
 """The picture of a path by itself, with what the check finds on it: no table runs for it, and no engine is loaded."""
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -15,12 +14,10 @@ from parser.shape.passes import find_passes
 from parser.toolpath import Toolpath
 from parser.units import from_mm, mm
 from sim.check.compensation.check import compensation_of, is_known
-from sim.check.lean import LeanDemands, leaning_offset, tilted_path, with_upper
 from sim.check.offset import Offsetting
 from sim.run.findings import outcome
-from sim.run.prepare import checked_for, prepare
+from sim.run.prepare import checked_for, in_file_order, prepare, tilt_findings
 from sim.setup.scenario import Scenario
-from sim.setup.taper import TaperSettings
 from sim.show.draw import style
 from sim.show.draw.sheet import AnyCanvas, Sheet
 from sim.show.pictures.cut.picture import draw_cut
@@ -93,11 +90,9 @@ def programmed(program: Program, scenario: Scenario) -> Programmed:
     if compensation is not None and not is_known(compensation):
         checked, _ = checked_for(program, scenario)
         return Programmed(program, scenario, None, checked.findings, is_contour=True)
-    program = with_upper(program, scenario.taper)
-    ready = prepare(program, replace(scenario, offset=leaning_offset(scenario.offset, scenario.taper)))
-    demands = LeanDemands(scenario.taper or TaperSettings(), scenario.known_guides, scenario.thickness_mm)
-    tilt = tilted_path(program, ready.offset, demands)
-    return Programmed(ready.program, scenario, ready.offset, ready.findings, tilt)
+    ready = prepare(program, scenario)
+    findings = in_file_order(ready, tuple(tilt_findings(ready, scenario)))
+    return Programmed(ready.program, scenario, ready.offset, findings, ready.tilt)
 
 
 def draw_path(sheet: Sheet[AnyCanvas], path: Programmed) -> AnyCanvas:

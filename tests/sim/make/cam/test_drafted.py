@@ -11,7 +11,7 @@ from made_programs import plan_of, plate_file, with_cuts
 from parser.geometry.curves import CurveKind, Curves, Floats
 from parser.program import load_program, parse_program
 from sim.make.cam.compensated_draft import draft_of_plan
-from sim.make.convert import proof
+from sim.make.conversion_proof import proof
 from sim.make.wanted import Wanted, encoded, written
 from sim.setup.making import Making
 
