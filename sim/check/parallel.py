@@ -5,7 +5,8 @@ from pathlib import Path
 
 from parser.files import read_bytes
 from parser.findings.errors import FileUnreadableError
-from sim.base.workers.rounds import DIED, Lost, Maker, Pool, in_order, made_by, refuse_other_makers, results
+from sim.base.workers.maker import Maker, made_by, refuse_other_makers
+from sim.base.workers.rounds import DIED, Lost, Pool, in_order, results
 from sim.check.file_check import Job, check_any, not_checked
 from sim.check.result import CheckResult
 

@@ -18,7 +18,7 @@ from parser.files import read_bytes
 from parser.findings.errors import FileUnreadableError
 from parser.toolpath import Point
 from sim.base.files.stages import staged
-from sim.base.workers.rounds import made_by
+from sim.base.workers.maker import made_by
 from sim.check.file_check import Job
 from sim.check.files import STORED
 from sim.check.result import CheckResult, CheckState, Coverage, Programmed, Silenced, State

@@ -63,7 +63,7 @@ def _show_version(ctx: click.Context, _: click.Parameter, is_wanted: bool) -> No
     """Print the version, and a digest of the sources: between two releases that alone tells them apart."""
     if not is_wanted or ctx.resilient_parsing:
         return
-    from sim.base.workers.rounds import sources
+    from sim.base.workers.maker import sources
 
     write(f"drycut, version {__version__}, sources {sources()}\n")
     ctx.exit()

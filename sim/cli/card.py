@@ -176,7 +176,7 @@ def run_client(options: ClientOptions, *, as_json: bool) -> int:
     from sim.base.files import scratch
     from sim.cli.progress import StageProgress
     from sim.clients.session import Wanted, started
-    from sim.jobs.run_into import STAGES, client_into, names_of
+    from sim.jobs.client_into import STAGES, client_into, names_of
     from sim.run.findings import verdict
     from sim.run.report import report_text
     from sim.show.terminal.batch import print_client
@@ -208,7 +208,7 @@ def scenario_of(options: ClientOptions) -> "Scenario":
     from parser.text.encoding import printable
     from sim.cli.scenario_options import Overrides, overridden
     from sim.clients.run import following
-    from sim.jobs.run_into import LOG
+    from sim.jobs.client_into import LOG
 
     scenario = overridden(options.output / LOG, Overrides(machine=options.machine))
     machine = scenario.machine.stepping_by("card")

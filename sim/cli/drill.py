@@ -50,7 +50,7 @@ def drill(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     drycut drill part.3b -o drills/ --kind operation
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     from parser.dialect.reader import Choices
-    from sim.jobs.run_into import PAGES, drill_names, drills_into
+    from sim.jobs.drills_into import PAGES, drill_names, drills_into
     from sim.show.terminal.printer import say
     from sim.teach.drills import DrillRequest
 
@@ -76,7 +76,7 @@ def _drill_operation(path: Path, choices: "Choices", output: Path, number: int, 
     """Drills of operation on a program, on the machine that runs are on."""
     from dataclasses import replace
 
-    from sim.jobs.run_into import OPERATION_PAGES, operation_into
+    from sim.jobs.drills_into import OPERATION_PAGES, operation_into
     from sim.run.running import dry_run
     from sim.run.sparks import panel_cut
     from sim.setup.scenario import load_scenario, under_sparks
@@ -106,7 +106,7 @@ def _read(path: Path, choices: "Choices") -> "Program":
 
 def _refuse_own_file(path: Path, output: Path, program: "Program", count: int) -> None:
     """BadParameter where a damaged program would take the place of the sound one."""
-    from sim.jobs.run_into import drill_names
+    from sim.jobs.drills_into import drill_names
 
     for file in (output / name for name in drill_names(program, count)):
         if file.exists() and file.samefile(path):

@@ -28,7 +28,8 @@ from parser.program import load_program, moving
 from parser.text.encoding import printable
 from sim.base.files import scratch, staged
 from sim.base.units import rounded
-from sim.base.workers.rounds import DIED, Lost, Maker, Pool, made_by, refuse_other_makers, results
+from sim.base.workers.maker import Maker, made_by, refuse_other_makers
+from sim.base.workers.rounds import DIED, Lost, Pool, results
 from sim.jobs.index import Entry, Row, build_index, index_text
 from sim.jobs.run_into import FILES, NAMES, PANEL, run_into
 from sim.jobs.shop import ShopProgram, source_of

@@ -26,7 +26,7 @@ SHIPPED = {
     *("parser/findings/catalogue.py", "sim/show/texts/texts.py", "sim/setup/key_words.py", "sim/setup/key_tables.py"),
     *("sim/show/html/environment.py", "sim/show/findings/catalogue_document.py", "sim/show/terminal/markdown.py"),
     *("parser/iso/profiles/profile.py", "parser/write/iso.py", "parser/drawing/dxf/document.py"),
-    *("controller/compiled/loops.py", "sim/base/workers/rounds.py"),  # our own modules
+    *("controller/compiled/loops.py", "sim/base/workers/maker.py"),  # our own modules
     "sim/check/own_checks.py",  # which distributions offer checks
     *("sim/serve/page/shortcut.py", "sim/show/draw/letters.py"),  # its icon, and how wide the letters of the font are
     *("controller/card/abi/table.py", "sim/clients/library.py"),  # C that libraries are made of
@@ -35,7 +35,7 @@ SHIPPED = {
 OWN = {
     *("sim/base/files/swap.py", "sim/base/files/stages.py", "sim/base/files/steps.py", "sim/run/recording.py"),
     *("sim/jobs/batch.py", "sim/jobs/batch.py", "sim/jobs/trace_file.py"),
-    "controller/compiled/entries.py",  # machine code, sealed
+    *("controller/compiled/entries.py", "sim/show/html/bytecode.py"),  # machine code and bytecode, sealed
     "sim/serve/page/recent.py",  # a list of our own
     "sim/show/terminal/streams.py",  # reopens closed streams on nothing
     *("sim/cli/lsp.py", "sim/serve/page/child.py"),  # hand a protocol, or a process of ours, its streams

@@ -17,7 +17,8 @@ from parser.program import Program, load_program, moving
 from sim.base.progress import Progress, silent
 from sim.check.file_check import settings_near
 from sim.check.settings import CheckSettings
-from sim.jobs.run_into import drills_into, run_into, stages_of_files
+from sim.jobs.drills_into import drills_into
+from sim.jobs.run_into import run_into, stages_of_files
 from sim.run.findings import outcome
 from sim.run.recording import Recording, recorded, stages_of
 from sim.run.running import dry_run

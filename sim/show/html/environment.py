@@ -26,6 +26,7 @@ from markupsafe import Markup
 
 from parser import __version__
 from sim.show.draw.style import DARK, LIGHT, OF_LEANS, Theme
+from sim.show.html.bytecode import Bytecode
 from sim.show.texts import bilingual
 from sim.show.texts.texts import texts
 
@@ -150,6 +151,7 @@ def _environment(assets: Path) -> Environment:
         trim_blocks=True,
         lstrip_blocks=True,
         keep_trailing_newline=True,
+        bytecode_cache=Bytecode(),
     )
     environment.filters["script_json"] = script_json
     environment.globals |= {

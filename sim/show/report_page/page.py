@@ -16,7 +16,7 @@ from parser.dialect.reader import OwnDialect
 from parser.findings.catalogue import LANGUAGES, Bilingual
 from parser.program import Program, own_dialect_text
 from parser.text.encoding import decode_text, encode_text
-from sim.base.workers.rounds import Maker, versions
+from sim.base.workers.maker import Maker, versions
 from sim.cut.pieces.pieces import Pieces
 from sim.run.dryrun import DryRun
 from sim.run.findings import outcome

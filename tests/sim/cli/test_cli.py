@@ -15,7 +15,7 @@ from command import run_command, run_inside, without_progress
 from places import ROOT, SCENARIOS
 
 from drycut import __version__
-from sim.base.workers.rounds import sources
+from sim.base.workers.maker import sources
 from sim.cli import cli
 
 SOUND = "B9900B0B9900GXL1 B9900B0B39600GYNR1 B9900B0B9900GXL3 DD"

@@ -16,7 +16,8 @@ from shops import TINY, instead_of_running, make_shop, rows, run_folder
 import sim.jobs.batch
 from parser.findings.errors import ClusterError
 from parser.program import read_program
-from sim.base.workers.rounds import Processes, made_by
+from sim.base.workers.maker import made_by
+from sim.base.workers.rounds import Processes
 from sim.jobs.run_into import FILES, run_into
 from sim.setup.scenario import Scenario, load_scenario
 from sim.setup.wire import Wire

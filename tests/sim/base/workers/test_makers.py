@@ -7,8 +7,8 @@ import pytest
 from places import ROOT
 
 from parser.findings.errors import ClusterError
-from sim.base.workers import rounds
-from sim.base.workers.rounds import (
+from sim.base.workers import maker
+from sim.base.workers.maker import (
     digest_of,
     made_by,
     refuse_other_makers,
@@ -57,6 +57,6 @@ def test_all_packages_of_drycut_count(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_a_worker_with_other_sources_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     here = made_by()
     refuse_other_makers(here)
-    monkeypatch.setattr(rounds, "sources", lambda: "0123456789abcdef")
+    monkeypatch.setattr(maker, "sources", lambda: "0123456789abcdef")
     with pytest.raises(ClusterError, match="sources"):
         refuse_other_makers(here)
