@@ -70,7 +70,7 @@ def store(name: str, digest: str, code: MachineCode) -> None:
     with contextlib.suppress(OSError):
         path = folder() / file_of(name, digest)
         path.parent.mkdir(parents=True, exist_ok=True)
-        _write(path, hashlib.sha256(rest).digest() + rest)
+        write_whole(path, hashlib.sha256(rest).digest() + rest)
         _clear(path.parent, name)
 
 
@@ -108,9 +108,9 @@ def _clear(entries_in: Path, name: str) -> None:
         entry.unlink(missing_ok=True)
 
 
-def _write(path: Path, entry: bytes) -> None:
+def write_whole(path: Path, entry: bytes) -> None:
     """Write an entry whole: another process may read or write it meanwhile. OSError where that cannot be done."""
-    number, draft = tempfile.mkstemp(dir=path.parent)
+    number, draft = tempfile.mkstemp(dir=path.parent, suffix=path.suffix)
     try:
         with os.fdopen(number, "wb") as file:
             file.write(entry)

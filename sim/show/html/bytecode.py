@@ -10,9 +10,7 @@ import contextlib
 import hashlib
 import importlib.util
 import marshal
-import os
 import sys
-import tempfile
 from functools import cache
 from pathlib import Path
 from typing import Final
@@ -42,21 +40,13 @@ class Bytecode(BytecodeCache):
         """Write the bytecode of a template whole, where that can be done: another process may read it meanwhile."""
         if sys.dont_write_bytecode:
             return
+        from controller.compiled.entries import write_whole  # noqa: PLC0415 - needed once on a machine
+
         code = marshal.dumps(bucket.code)
         path = Path(bucket.key)
         with contextlib.suppress(OSError):
             path.parent.mkdir(parents=True, exist_ok=True)
-            _write(path, _seal(bucket, code) + code)
-
-
-def _write(path: Path, entry: bytes) -> None:
-    number, draft = tempfile.mkstemp(dir=path.parent, suffix=path.suffix)
-    try:
-        with os.fdopen(number, "wb") as file:
-            file.write(entry)
-        Path(draft).replace(path)
-    finally:
-        Path(draft).unlink(missing_ok=True)
+            write_whole(path, _seal(bucket, code) + code)
 
 
 def _seal(bucket: Bucket, code: bytes) -> bytes:
