@@ -150,6 +150,7 @@ _codes = {
     "3B708": FindingCode(Severity.WARNING, check=None, spoils=True),
     "3B709": FindingCode(Severity.ERROR, Check.TAPER),
     "3B710": FindingCode(Severity.ERROR, Check.TAPER),
+    "3B711": FindingCode(Severity.ERROR, check=None, placed=True),
     "GEC401": FindingCode(Severity.WARNING, None),
     "GEC402": FindingCode(Severity.WARNING, None),
     "GEC403": FindingCode(Severity.WARNING, None),

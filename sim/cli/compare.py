@@ -65,7 +65,7 @@ def compare(  # noqa: PLR0913 - click hands over each option by its name
     given = _checked(offsets_of(offset))
     scenario = read_with(load_scenario(path), dialect, unit, given.registers)
     settings = of_options(DRAWING.keys, taken_settings(DRAWING.keys, options))
-    target = drawing_target(scenario.drawing, drawing, settings)
+    target = drawing_target(scenario.drawing, drawing, None, settings)
     if target is None:
         raise click.MissingParameter(param_hint="DRAWING.dxf", param_type="argument")
     program = _program(scenario)

@@ -86,6 +86,7 @@ _OPTIONS = (
         type=FilePath(path_type=Path, dir_okay=False),
         metavar="DXF",
     ),
+    click.option("--drawing-upper", type=FilePath(path_type=Path, dir_okay=False), metavar="DXF"),
     *setting_options(COMPARISON),
     *TAPER_OPTIONS,
 )
@@ -132,6 +133,7 @@ class Overrides(NamedTuple):
     offset: tuple["tuple[float, ...] | RegisterSet", ...] = ()
     side: str | None = None
     drawing: Path | None = None
+    drawing_upper: Path | None = None
     comparison: Mapping[str, Any] = MappingProxyType({})
     taper: TaperOptions = TaperOptions()
     sparks: bool = False
@@ -210,20 +212,25 @@ def of_options(keys: Iterable[Key], settings: Mapping[str, Any]) -> dict[str, An
 
 
 def drawing_target(
-    own: DrawingTarget | None, drawing: Path | None, settings: Mapping[str, Any]
+    own: DrawingTarget | None, drawing: Path | None, upper: Path | None, settings: Mapping[str, Any]
 ) -> DrawingTarget | None:
-    """The drawing with options in place of a scenario's own values; None without a drawing.
+    """The drawings with options in place of a scenario's own values; None without a drawing.
 
-    `settings` are by the names of the keys of ``[drawing]``, as they are inside.
+    `settings` are by the names of the keys of ``[drawing]``, as they are inside. SettingsError where there is a
+    drawing of the top alone.
     """
     if drawing is not None:
         own = own._replace(file=drawing) if own is not None else DrawingTarget(drawing)
-    return None if own is None else own._replace(**settings)
+    if own is None:
+        if upper is not None:
+            raise SettingsError("option-needs-drawing", option="drawing-upper")
+        return None
+    return own._replace(**settings, upper=upper or own.upper)
 
 
 def _drawing(own: DrawingTarget | None, options: Overrides) -> DrawingTarget | None:
     """The drawing of a run. SettingsError where the options say how to hold it but not which."""
-    drawing = drawing_target(own, options.drawing, of_options(COMPARISON, options.comparison))
+    drawing = drawing_target(own, options.drawing, options.drawing_upper, of_options(COMPARISON, options.comparison))
     for key in COMPARISON:
         if drawing is None and key.name in options.comparison:
             raise SettingsError("option-needs-drawing", option=key.option.lstrip("-"))

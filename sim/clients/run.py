@@ -77,7 +77,7 @@ def run_client(read: Read, scenario: Scenario, progress: Progress = silent, sink
     ended = None if scenario.past_stop else travel_end(ready, motion, scenario)
     if ended is not None:
         motion = motion.until(ended.t_s)
-    return run_along(Along(ready, motion, ended, _of_calls(read, motion), None), scenario, None, progress, sink)
+    return run_along(Along(ready, motion, ended, _of_calls(read, motion), None), scenario, progress=progress, sink=sink)
 
 
 def _ready(read: Read, scenario: Scenario) -> Prepared:

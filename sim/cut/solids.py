@@ -11,14 +11,14 @@ from typing import Final, Literal, NamedTuple
 import numpy as np
 
 from controller.taper.tilted import TiltedPath, section_toolpath
-from parser.geometry.curves import Curves, Floats, Ints, extents
+from parser.geometry.curves import Floats, Ints, extents
 from parser.program import Program
-from parser.shape.contours import find_contours
+from parser.shape.contours import Contour, find_contours
 from parser.toolpath import Toolpath
 from parser.units import mm
 from sim.cut.pieces.pieces import Piece, Pieces
 from sim.cut.regions import RegionError
-from sim.cut.remains import pieces_left
+from sim.cut.remains import Remains, pieces_left, remains_of
 from sim.cut.wire_lag import bowed
 from sim.cut.wire_rows import WireRows
 from sim.setup.scenario import Scenario
@@ -39,8 +39,10 @@ class Section:
     ----------
     z_um
         Above the bottom of the work.
-    curves
-        The wire's way.
+    toolpath
+        The wire's way, its blocks those of the program.
+    reach_um
+        (n,) half the width of the kerf in each of its rows.
     programmed_um2
         Area within the closed contours of the wire's way.
     low_um, high_um
@@ -48,13 +50,14 @@ class Section:
     off_um
         The most by which the wire was off its wall, across it, by table and head.
     trace
-        Where the wire was over time; rows are those of `curves`.
+        Where the wire was over time; rows are those of `toolpath`.
     pieces
         What comes free there; None where nobody asked, or where that could not be worked out.
     """
 
     z_um: float
-    curves: Curves
+    toolpath: Toolpath
+    reach_um: Floats
     programmed_um2: float
     low_um: Floats
     high_um: Floats
@@ -66,6 +69,16 @@ class Section:
     def piece_mm2(self) -> float | None:
         """Area of all that comes free there; None where that is not known."""
         return None if self.pieces is None else sum(piece.area_mm2 for piece in self.pieces.freed)
+
+    def contours(self) -> tuple[Contour, ...]:
+        """The contours of the wire's way."""
+        path = self.toolpath
+        return find_contours(path, np.rint(np.concatenate([path.start_um[:1], path.end_um])).astype(np.int64))
+
+    def remains(self, program: Program, scenario: Scenario) -> Remains:
+        """What is left there of the cut of a program. RegionError where that could not be worked out."""
+        of_height = replace(program, toolpath=self.toolpath)
+        return remains_of(of_height, self.trace, self.contours(), scenario, self.reach_um)
 
 
 class Solid(NamedTuple):
@@ -171,12 +184,10 @@ def _section(moved: _Moved, z_um: float, scenario: Scenario | None) -> Section:
     toolpath = section_toolpath(program.toolpath, curves, source)
     wire_um = moved.axes.wire_um(z_um)
     trace = _trace(moved, wire_um, toolpath, row)
-    pieces = None
-    if scenario is not None:
-        reach = moved.wire.reach_um[source] / np.cos(moved.wall_rad)[row]
-        pieces = _pieces(replace(program, toolpath=toolpath), trace, scenario, reach)
+    reach = moved.wire.reach_um[source] / np.cos(moved.wall_rad)[row]
     off = _off_um(moved, wire_um, z_um)
-    return Section(z_um, curves, programmed, low.min(axis=0), high.max(axis=0), off, trace, pieces)
+    found = Section(z_um, toolpath, reach, programmed, low.min(axis=0), high.max(axis=0), off, trace, None)
+    return found if scenario is None else replace(found, pieces=_pieces(program, found, scenario))
 
 
 def _trace(moved: _Moved, wire_um: Floats, toolpath: Toolpath, row: Ints) -> Trace:
@@ -195,12 +206,11 @@ def _off_um(moved: _Moved, wire_um: Floats, z_um: float) -> float:
     return float(np.abs((off * moved.across).sum(axis=1)).max(initial=0.0))
 
 
-def _pieces(program: Program, trace: Trace, scenario: Scenario, reach_um: Floats) -> Pieces | None:
-    """What comes free of a cut by where the wire was."""
-    toolpath = program.toolpath
-    corner = np.rint(np.concatenate([toolpath.start_um[:1], toolpath.end_um])).astype(np.int64)
+def _pieces(program: Program, section: Section, scenario: Scenario) -> Pieces | None:
+    """What comes free of a cut by where the wire was at a height."""
+    of_height = replace(program, toolpath=section.toolpath)
     try:
-        return pieces_left(program, trace, find_contours(toolpath, corner), scenario, reach_um)
+        return pieces_left(of_height, section.trace, section.contours(), scenario, section.reach_um)
     except RegionError:
         return None
 

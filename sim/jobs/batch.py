@@ -53,8 +53,8 @@ class Task(NamedTuple):
         Name of its file, as shown, and its bytes.
     scenario
         What it is run with.
-    drawing
-        Bytes of the scenario's drawing; None without one.
+    drawings
+        Bytes of the scenario's drawings, that of the top last; empty without one.
     made_by
         What its bytes must come from: `made_by` of who asks for them.
     language
@@ -66,7 +66,7 @@ class Task(NamedTuple):
     name: str
     data: bytes
     scenario: Scenario
-    drawing: bytes | None
+    drawings: tuple[bytes, ...]
     made_by: Maker
     language: Language
     is_made: bool = False
@@ -106,32 +106,40 @@ def fault_of(title: Bilingual, told_text: str) -> Done:
 def _run(task: Task, folder: Path) -> Done:
     """Run a program into a folder, and take its files from there."""
     made = folder / "made"
-    scenario = _with_drawing(task, folder)
+    scenario = _with_drawings(task, folder)
     try:
         program = moving(load_program(task.data, task.name, scenario.choices))
         run = run_into(made, program, scenario, language=task.language)
-    except DrawingError as error:  # people know the drawing by where it stands
-        here, own = _places_of_drawing(scenario, task.scenario)
-        raise DrawingError(error.message.with_values(lambda value: own if str(value) == here else value)) from None
+    except DrawingError as error:  # people know a drawing by where it stands
+        places = dict(zip(map(str, _drawings_of(scenario)), map(str, _drawings_of(task.scenario)), strict=True))
+        raise DrawingError(error.message.with_values(lambda value: places.get(str(value), value))) from None
     extra = {task.scenario.program.name: task.data} if task.is_made else {}
     return Done(
         _row(run), {**{name: (made / name).read_bytes() for name in (*FILES, PANEL) if (made / name).exists()}, **extra}
     )
 
 
-def _with_drawing(task: Task, folder: Path) -> Scenario:
-    """The scenario with its drawing in a folder, under its own name."""
-    own = task.scenario.drawing
-    if own is None or task.drawing is None:
-        return task.scenario
-    here = folder / "drawing" / own.file.name
-    here.parent.mkdir()
-    here.write_bytes(task.drawing)
-    return replace(task.scenario, drawing=own._replace(file=here))
+def _with_drawings(task: Task, folder: Path) -> Scenario:
+    """The scenario with its drawings in a folder, each under its own name."""
+    here = [folder / f"drawing-{at}" / file.name for at, file in enumerate(_drawings_of(task.scenario))]
+    for path, data in zip(here, task.drawings, strict=True):
+        path.parent.mkdir()
+        path.write_bytes(data)
+    return _drawn_in(task.scenario, here)
 
 
-def _places_of_drawing(here: Scenario, own: Scenario) -> tuple[str, str]:
-    return str(here.drawing and here.drawing.file), str(own.drawing and own.drawing.file)
+def _drawings_of(scenario: Scenario) -> list[Path]:
+    """Files of the drawings that a scenario is held against, that of the top last."""
+    target = scenario.drawing
+    return [] if target is None else [file for file in (target.file, target.upper) if file is not None]
+
+
+def _drawn_in(scenario: Scenario, files: Sequence[Path]) -> Scenario:
+    """The scenario with its drawings in other files, as `_drawings_of` has them."""
+    target = scenario.drawing
+    if target is None:
+        return scenario
+    return replace(scenario, drawing=target._replace(file=files[0], upper=files[1] if len(files) > 1 else None))
 
 
 def _row(run: DryRun) -> Row:
@@ -153,15 +161,12 @@ NAME: Final = "kept.json"
 _SCHEMA: Final = "drycut.kept/1"
 
 
-def digest_of(program: bytes, scenario: Scenario, drawing: bytes | None, made_by: Maker, language: Language) -> str:
+def digest_of(program: bytes, scenario: Scenario, drawings: Sequence[bytes], made_by: Maker, language: Language) -> str:
     """Digest of all that the files of a run follow from: nothing of it is a path, so a shop may be moved."""
-    settings = replace(
-        scenario,
-        program=Path(scenario.program.name),
-        drawing=scenario.drawing and scenario.drawing._replace(file=Path(scenario.drawing.file.name)),
-    )
+    named = _drawn_in(scenario, [Path(file.name) for file in _drawings_of(scenario)])
+    settings = replace(named, program=Path(scenario.program.name))
     settings_text = repr((made_by, language, settings)).encode("utf-8", "surrogatepass")
-    parts = (settings_text, program, drawing or b"")
+    parts = (settings_text, program, *drawings)
     return _sum(b"".join(_sum(part).encode() for part in parts))
 
 
@@ -282,7 +287,7 @@ class _Work:
             if task is None:
                 self._refuse(number, in_both(program.error))
                 continue
-            digest = digest_of(task.data, task.scenario, task.drawing, task.made_by, task.language)
+            digest = digest_of(task.data, task.scenario, task.drawings, task.made_by, task.language)
             row = row_of_last_run(self._out / program.folder, digest)
             if row is None:
                 self._digests[number] = digest
@@ -323,8 +328,8 @@ def _task(program: ShopProgram, language: Language) -> Task | None:
     if scenario is None:
         return None
     source = source_of(scenario)
-    drawing = read_bytes(scenario.drawing.file) if scenario.drawing is not None else None
-    return Task(printable(scenario.program.name), source.data, scenario, drawing, made_by(), language, source.is_made)
+    drawings = tuple(map(read_bytes, _drawings_of(scenario)))
+    return Task(printable(scenario.program.name), source.data, scenario, drawings, made_by(), language, source.is_made)
 
 
 def _title(program: ShopProgram) -> Bilingual:

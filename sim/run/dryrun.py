@@ -181,6 +181,8 @@ class DryRun:
         Kerf, pieces and sizes; None where nobody asked for them or for a drawing.
     comparison
         The cut edge beside its drawing; None where there is no drawing, or no edge.
+    top
+        The edge at the top of the work beside a drawing of its own; None without one, or of an upright wire.
     findings
         Of program and run, in file order; behind them one for each of `missed`.
     checked
@@ -215,6 +217,7 @@ class DryRun:
     findings: tuple[Finding, ...]
     checked: tuple[Finding, ...]
     coverage: Coverage
+    top: Comparison | None = None
     missed: tuple[Missed, ...] = ()
 
     @property

@@ -14,6 +14,7 @@ from controller.card.log import CardLog
 from controller.motion.limits import Feeds
 from controller.stepping.pulses import Pulses
 from parser.drawing.model import Drawing
+from parser.findings.errors import SettingsError
 from parser.findings.findings import Finding, WithoutOffset, telling
 from parser.geometry.curves import Floats
 from parser.program import Program
@@ -27,14 +28,14 @@ from sim.cut.remains import Remains, remains_of
 from sim.cut.wire_lag import bowed
 from sim.cut.wire_rows import WireRows, wire_rows
 from sim.measure.causes import Meters
-from sim.measure.compare.findings import compare_cut, drawing_findings
+from sim.measure.compare.findings import compare_cut, drawing_findings, top_findings
 from sim.measure.compare.result import Comparison
 from sim.measure.kerf_fit import offset_findings, tolerance_findings
 from sim.measure.passes import PassFigures, figures_of_passes, wire_taken
 from sim.run.dryrun import DryRun, Ending, PulseSink, motion_to_end, trip_of
 from sim.run.prepare import Prepared, in_file_order, prepare, tilt_findings
 from sim.run.sparks import check_states, cut_under_sparks, stop_findings, work_of
-from sim.run.tilt import cut_tilted, lost_findings, with_tilt
+from sim.run.tilt import asks_for_pieces, compared_at_top, cut_tilted, lost_findings, with_tilt
 from sim.setup.part import DrawingTarget
 from sim.setup.scenario import Scenario
 from sim.table.losses import loss_findings
@@ -42,6 +43,16 @@ from sim.table.motion import Motion, Moved, TableRun, driven
 from sim.table.trace import Trace
 
 _REMAINS: Final = "check-remains"  # the check of what a cut leaves, which only a run makes
+
+
+class Drawings(NamedTuple):
+    """What a cut is held against: drawings of the part at the program plane, and at the top; None without one."""
+
+    plane: Drawing | None = None
+    top: Drawing | None = None
+
+
+_NO_DRAWINGS: Final = Drawings()
 
 
 class CutResult(NamedTuple):
@@ -57,12 +68,17 @@ class CutResult(NamedTuple):
 
 
 def drawing_of(target: DrawingTarget | None) -> Drawing | None:
-    """The drawing that a cut is held against, None where there is none; DrawingError where it cannot be read."""
+    """A drawing that a cut is held against, None where there is none; DrawingError where it cannot be read."""
     if target is None:
         return None
     from parser.drawing.read import read_drawing  # noqa: PLC0415 - most runs have no drawing, and ezdxf loads for 0.3 s
 
     return read_drawing(target.file, layer=target.layer, gap_um=target.gap_um, unit=target.unit)
+
+
+def drawings_of(target: DrawingTarget | None) -> Drawings:
+    """The drawings that a cut is held against. DrawingError where one cannot be read."""
+    return Drawings(drawing_of(target), drawing_of(target and target.of_top))
 
 
 def left_of(  # noqa: PLR0913, PLR0917 - all that is known of the cut, and whom it tells
@@ -84,7 +100,7 @@ def left_of(  # noqa: PLR0913, PLR0917 - all that is known of the cut, and whom 
     A run that is not whole, since it ended early, is not held against the drawing: all that differs comes of that.
     """
     target = scenario.drawing
-    if not scenario.kerf and target is None:
+    if not asks_for_pieces(scenario):
         return CutResult(None, None, [], CheckState(_REMAINS, "not asked", "reason-no-kerf"))
     progress("kerf", 0, 1)
     try:
@@ -131,22 +147,24 @@ def dry_run(  # noqa: PLR0913 - whom it tells
     Sizes and plays of what it leaves take a quarter of the time of a run with kerf: without `measured` they are worked
     out when they are first looked at.
 
-    Raises ProgramError where the program asks for more than any table can do, and DrawingError where the scenario's
-    drawing cannot be read.
+    Raises ProgramError where the program asks for more than any table can do, DrawingError where a drawing of the
+    scenario cannot be read, and SettingsError where there is one of the top and the wire is upright.
     """
     progress("checks", 0, 1)
-    drawing = drawing_of(scenario.drawing)
+    drawings = drawings_of(scenario.drawing)
     ready = prepare(program, scenario)
+    if drawings.top is not None and ready.tilt is None:
+        raise SettingsError("upper-drawing-upright")
     progress("plan", 0, 1)
     motion, ended = motion_to_end(ready, scenario)
     along = Along(ready, motion, ended, driven(motion, log), ready.feeds, measured)
-    return run_along(along, scenario, drawing, progress, sink)
+    return run_along(along, scenario, drawings, progress, sink)
 
 
 def run_along(
     along: Along,
     scenario: Scenario,
-    drawing: Drawing | None = None,
+    drawings: Drawings = _NO_DRAWINGS,
     progress: Progress = silent,
     sink: PulseSink | None = None,
 ) -> DryRun:
@@ -171,7 +189,10 @@ def run_along(
     if ready.tilt is not None:
         reach_um = reach_um / np.cos(ready.tilt.wall_rad(len(toolpath)))
     is_whole = ended is None
-    left = left_of(program, cut, contours, scenario, drawing, reach_um, progress, is_whole=is_whole, measured=measured)
+    left = left_of(
+        program, cut, contours, scenario, drawings.plane, reach_um, progress, is_whole=is_whole, measured=measured
+    )
+    top = compared_at_top(program, tilted, scenario, drawings.top, left.comparison)
     found = [
         *_met(program, scenario, moved, trace, contours),
         *left.findings,
@@ -179,8 +200,9 @@ def run_along(
         *stop_findings(program, process),
         *tilt_findings(ready, scenario),
         *lost_findings(program, tilted, scenario),
+        *top_findings(program, top),
     ]
-    states = with_tilt((*ready.coverage.checks, left.state, *check_states(process)), ready.tilt)
+    states = with_tilt((*ready.coverage.checks, left.state, *check_states(process)), tilted, scenario)
     return DryRun(
         program=program,
         scenario=scenario,
@@ -203,6 +225,7 @@ def run_along(
         reach_um=reach_um,
         remains=left.remains,
         comparison=left.comparison,
+        top=top,
         findings=in_file_order(ready, found),
         checked=ready.findings,
         coverage=ready.coverage._replace(checks=states),

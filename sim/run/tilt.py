@@ -4,17 +4,21 @@ The rest of a run goes by the program plane, with an upright wire: there the wir
 """
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
 from controller.motion.limits import run_starts
-from controller.taper.tilted import TiltedPath
+from parser.drawing.model import Drawing
 from parser.findings.codes import Check
 from parser.findings.findings import Finding
 from parser.program import Program
 from sim.check.result import CheckState
 from sim.cut.solids import TiltedCut, tilted_cut
 from sim.cut.wire_rows import WireRows
+from sim.measure.compare.findings import compare_cut
+from sim.measure.compare.result import Comparison
+from sim.measure.compare.starts import placed
 from sim.run.prepare import Prepared
 from sim.setup.scenario import Scenario
 from sim.table.losses import loss_findings
@@ -37,8 +41,7 @@ def cut_tilted(ready: Prepared, scenario: Scenario, wire: WireRows) -> TiltedCut
     axes = follow_tilted(
         path, feeds._replace(cut_um_s=cut), scenario.machine, guides, scenario.start_um, rests, sampling
     )
-    kerf = scenario.kerf or scenario.drawing is not None
-    return tilted_cut(ready.program, axes, scenario, wire, kerf=kerf)
+    return tilted_cut(ready.program, axes, scenario, wire, kerf=asks_for_pieces(scenario))
 
 
 def lost_findings(program: Program, cut: TiltedCut | None, scenario: Scenario) -> Iterator[Finding]:
@@ -53,6 +56,38 @@ def lost_findings(program: Program, cut: TiltedCut | None, scenario: Scenario) -
             yield found._replace(values={**found.values, "axis": names["XY".index(axis)]})
 
 
-def with_tilt(states: tuple[CheckState, ...], path: TiltedPath | None) -> tuple[CheckState, ...]:
-    """How far checks came, the one of the lean among them where the wire is not upright: that is complete."""
-    return states if path is None else (*states, CheckState(Check.TAPER))
+def compared_at_top(
+    program: Program,
+    cut: TiltedCut | None,
+    scenario: Scenario,
+    drawing: Drawing | None,
+    below: Comparison | None,
+) -> Comparison | None:
+    """The edge at the top of the work beside its drawing, which lies on the sheet as that of the program plane does.
+
+    None where it is not compared: nobody asked, the edge could not be worked out, or the other was not compared, and
+    so nobody knows where the drawing lies.
+    """
+    target = scenario.drawing and scenario.drawing.of_top
+    if cut is None or target is None or drawing is None or below is None or cut.sections[-1].pieces is None:
+        return None
+    section = cut.sections[-1]
+    lies = replace(drawing, curves=placed(drawing.curves, below.placement))
+    return compare_cut(replace(program, toolpath=section.toolpath), section.remains(program, scenario), lies, target)
+
+
+def with_tilt(states: tuple[CheckState, ...], cut: TiltedCut | None, scenario: Scenario) -> tuple[CheckState, ...]:
+    """How far checks came, the one of the lean among them where the wire is not upright.
+
+    That is complete but where somebody asked for pieces, and those of a section could not be worked out.
+    """
+    if cut is None:
+        return states
+    if asks_for_pieces(scenario) and any(section.pieces is None for section in cut.sections):
+        return (*states, CheckState(Check.TAPER, "incomplete", "reason-no-region"))
+    return (*states, CheckState(Check.TAPER))
+
+
+def asks_for_pieces(scenario: Scenario) -> bool:
+    """Whether a run works out what is left of the work."""
+    return scenario.kerf or scenario.drawing is not None

@@ -100,7 +100,9 @@ class DrawingTarget(NamedTuple):
     Attributes
     ----------
     file
-        A DXF file.
+        A DXF file: the part at the program plane.
+    upper
+        Another one: the part at the top of the work, cut by a wire that leans; it lies on the sheet as the first does.
     layer
         Layer of the contour; all where None.
     unit
@@ -122,6 +124,12 @@ class DrawingTarget(NamedTuple):
     fit: bool = True
     sharp_corners: SharpCorners = "tell"
     unit: str | None = None
+    upper: Path | None = None
+
+    @property
+    def of_top(self) -> "DrawingTarget | None":
+        """The drawing of the top, held as the other is, where that lies; None where there is none."""
+        return None if self.upper is None else self._replace(file=self.upper, upper=None, fit=False)
 
 
 class SideWord(OneOf):
@@ -176,6 +184,7 @@ DRAWING = Section(
     "drawing",
     (
         Key("file", FileName()),
+        Key("upper", FileName(), default=None),
         LAYER,
         UNIT,
         TOLERANCE,
@@ -223,7 +232,7 @@ def read_drawing_target(scenario: Mapping[str, Any], where: str, folder: Path) -
     if "drawing" not in scenario:
         return None
     drawing = DrawingTarget(**DRAWING.read_in(scenario, where))
-    return drawing._replace(file=folder / drawing.file)
+    return drawing._replace(file=folder / drawing.file, upper=drawing.upper and folder / drawing.upper)
 
 
 THICKNESS_MM = Bound(0.01, 2000.0)

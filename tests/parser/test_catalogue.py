@@ -127,6 +127,7 @@ VALUES: dict[str, dict[str, Value]] = {
     "3B708": {"offset_mm": 0.1, "off": 15.5, "needed_mm": 0.1155},
     "3B709": {"z_mm": 40.0},
     "3B710": {},
+    "3B711": {"what": "edge-off", "off": 7.0, "tolerance": 5.0, "x_mm": 12.5, "y_mm": 0.0, "entity": "ARC 2F"},
     "GEC401": {"call": "GT_ZeroPos(1)", "answer": 1, "function": "GT_ZeroPos", "then": "GT_LnXY(30000.0, 0.0)"},
     "GEC402": {"axis": 1, "side": "limit-negative", "t_s": 16.45},
     "GEC403": {"slept_s": 2.0, "needed_s": 3.4642, "short_s": 1.4642, "call": "GT_ZeroPos(1)", "more": 2},

@@ -175,10 +175,8 @@ def drawing_findings(program: Program, found: Comparison | None) -> Iterator[Fin
     if found is None:
         yield Finding("3B602", {"what": "no-edge"})
         return
-    for what, places in (("edge-off", by_block(found)), ("drawing-off", by_entity(found))):
-        worst = max(places, key=lambda place: place.deviation_um)
-        if worst.deviation_um > found.request.tolerance_um:
-            yield _off(program, found, what, worst)
+    for what, place in _past_tolerance(found):
+        yield _off(program, found, what, place)
     yield from _sharp_corners(program, found)
     if found.passes:
         return
@@ -187,6 +185,22 @@ def drawing_findings(program: Program, found: Comparison | None) -> Iterator[Fin
             yield Finding("3B602", {"what": named.name})
         elif named.name in _CONTOUR:
             yield _contour(program, found, named)
+
+
+def top_findings(program: Program, found: Comparison | None) -> Iterator[Finding]:
+    """3B711 for the worst place of each direction past the tolerance, at the top of the work."""
+    if found is None:
+        return
+    for what, place in _past_tolerance(found):
+        yield _off(program, found, what, place, at_top=True)
+
+
+def _past_tolerance(found: Comparison) -> Iterator[tuple[str, WorstPlace]]:
+    """The worst place of each direction, by its term, where that lies past the tolerance."""
+    for what, places in (("edge-off", by_block(found)), ("drawing-off", by_entity(found))):
+        worst = max(places, key=lambda place: place.deviation_um)
+        if worst.deviation_um > found.request.tolerance_um:
+            yield what, worst
 
 
 def _sharp_corners(program: Program, found: Comparison) -> Iterator[Finding]:
@@ -222,12 +236,12 @@ def _row(program: Program, block: int) -> int:
     return int(np.flatnonzero(program.toolpath.source.block == block)[0])
 
 
-def _off(program: Program, found: Comparison, what: str, place: WorstPlace) -> Finding:
+def _off(program: Program, found: Comparison, what: str, place: WorstPlace, *, at_top: bool = False) -> Finding:
     entity = found.drawing.entities[place.entity] if place.entity >= 0 else None
     return at_block(
         program.toolpath,
         program.lines,
-        "3B601",
+        "3B711" if at_top else "3B601",
         _row(program, place.block),
         what=what,
         off=place.deviation_um,

@@ -32,12 +32,11 @@ from sim.base.units import (
     rows,
 )
 from sim.check.result import Coverage
-from sim.measure.compare.result import Comparison
 from sim.measure.passes import PassFigures, Stock
 from sim.measure.threadings import Threading, threadings
 from sim.run.dryrun import DryRun, assumptions_of
 from sim.run.findings import to_check, verdict
-from sim.run.report.drawing import ComparisonEntry, comparison_document
+from sim.run.report.drawing import comparison_entry
 from sim.run.report.figures import (
     deviation_entries,
     ended_entry,
@@ -218,7 +217,7 @@ def build_report(run: DryRun) -> ReportDocument:
         "spark": spark_entry(run.process),
         "taper": taper_entry(run),
         "remains": remains_entry(run.remains, run.ran_s),
-        "drawing": _drawing(run.comparison),
+        "drawing": comparison_entry(run.comparison),
         "coverage": _coverage(run.coverage),
         "findings": [finding_entry(finding) for finding in run.findings],
         "stops": [{"kind": s.kind, "after_block": s.after, "line": s.line} for s in toolpath.stops],
@@ -303,15 +302,6 @@ def _assumptions(run: DryRun) -> AssumptionsEntry:
         "drawing_compared": found.compared,
         "wire_bows": found.wire_bows,
     }
-
-
-def _drawing(comparison: Comparison | None) -> ComparisonEntry | None:
-    """``drawing``: the comparison as ``drycut compare --json`` has it, without what the report or the kerf says."""
-    if comparison is None:
-        return None
-    keys = ComparisonEntry.__annotations__
-    found = {key: value for key, value in comparison_document(comparison).items() if key in keys}
-    return cast("ComparisonEntry", found)
 
 
 def finding_entry(finding: Finding) -> FindingEntry:

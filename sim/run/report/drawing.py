@@ -3,7 +3,7 @@
 import json
 from collections.abc import Sequence
 from operator import attrgetter
-from typing import Annotated, Final, Literal, TypedDict
+from typing import Annotated, Final, Literal, TypedDict, cast
 
 import numpy as np
 
@@ -188,6 +188,14 @@ def comparison_document(of: Comparison) -> CompareDocument:
         "drawing": {"name": drawing.name, "version": drawing.version, "unit": drawing.unit},
         "notes": [remark_text(note) for note in of.notes],
     }
+
+
+def comparison_entry(of: Comparison | None) -> ComparisonEntry | None:
+    """``drawing`` of a report: the comparison as ``drycut compare --json`` has it, without what the report says."""
+    if of is None:
+        return None
+    keys = ComparisonEntry.__annotations__
+    return cast("ComparisonEntry", {key: value for key, value in comparison_document(of).items() if key in keys})
 
 
 def document_text(of: Comparison) -> str:

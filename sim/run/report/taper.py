@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated, TypedDict
 from parser.documents import Count, Point, Size, one_of
 from parser.units import mm
 from sim.base.units import known, rounded
+from sim.run.report.drawing import ComparisonEntry, comparison_entry
 from sim.setup.taper import TaperSettings
 
 if TYPE_CHECKING:  # the model of the report is read without what makes it
@@ -74,6 +75,7 @@ class TaperEntry(TypedDict):
     sections: list[TiltedSectionEntry]
     volume_mm3: VolumeEntry
     pieces: list[SolidEntry]
+    drawing: ComparisonEntry | None
 
 
 def taper_entry(run: "DryRun") -> TaperEntry | None:
@@ -110,6 +112,7 @@ def taper_entry(run: "DryRun") -> TaperEntry | None:
             }
             for solid in cut.solids
         ],
+        "drawing": comparison_entry(run.top),
     }
 
 

@@ -123,12 +123,19 @@ def _piece(piece: Piece, names: BlockNames, tell: Words) -> str:
 
 def drawing_rows(run: DryRun, tell: Words) -> list[Row]:
     """How far the cut lies from its drawing."""
-    target, found = run.scenario.drawing, run.comparison
-    if target is None or found is None:
-        return []
-    figures = tell("summary.off-drawing-of", most=f"{found.max_um:,.2f}", tolerance=f"{target.tolerance_um:g}")
-    names = [("", remark_text(named, tell.language, run.block_names.other)) for named in found.names]
-    return [(tell("summary.off-drawing", drawing=found.drawing.name), figures), *names]
+    rows: list[Row] = []
+    for name, found in (("off-drawing", run.comparison), ("off-drawing-top", run.top)):
+        if found is None:
+            continue
+        most, tolerance = f"{found.max_um:,.2f}", f"{found.request.tolerance_um:g}"
+        rows.append(
+            (
+                tell(f"summary.{name}", drawing=found.drawing.name),
+                tell("summary.off-drawing-of", most=most, tolerance=tolerance),
+            )
+        )
+        rows += [("", remark_text(named, tell.language, run.block_names.other)) for named in found.names]
+    return rows
 
 
 _CAUSES = ("interpolation", "carried", "planning", "table", "wire")

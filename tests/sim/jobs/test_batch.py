@@ -115,12 +115,16 @@ def test_settings_drawing_and_version_count_and_their_places_do_not(
     shop: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     out = tmp_path / "out"
-    (shop / "scenario.toml").write_text('program = "00.3b"\nkerf = true\n[drawing]\nfile = "part.dxf"\n', "utf-8")
+    (shop / "scenario.toml").write_text(
+        'program = "00.3b"\nkerf = true\n[drawing]\nfile = "part.dxf"\nupper = "top.dxf"\n', "utf-8"
+    )
     (shop / "part.dxf").write_text("drawing", "ascii")
+    (shop / "top.dxf").write_text("of the top", "ascii")
     for change, is_kept in (
         (lambda: None, False),
         (lambda: None, True),
         (lambda: (shop / "part.dxf").write_text("drawn anew", "ascii"), False),
+        (lambda: (shop / "top.dxf").write_text("drawn anew", "ascii"), False),
         (lambda: (shop / "scenario.toml").write_text(f"{(shop / 'scenario.toml').read_text()}# aside\n"), True),
         (
             lambda: (shop / "scenario.toml").write_text(f"past_stop = true\n{(shop / 'scenario.toml').read_text()}"),

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
+import ezdxf
 import numpy as np
 import pytest
 
@@ -16,7 +17,7 @@ from sim.run.report.document import build_report, report_text
 from sim.run.running import dry_run
 from sim.run.times.predicted import predicted
 from sim.setup.machine.guides import Guides
-from sim.setup.part import SIDES, Offset, OffsetPass
+from sim.setup.part import SIDES, DrawingTarget, Offset, OffsetPass
 from sim.setup.scenario import Scenario, load_scenario
 from sim.setup.shop import Shop
 from sim.setup.taper import TaperSettings, UpperProgram, heights_of
@@ -291,3 +292,41 @@ def test_whoever_reads_the_path_of_a_wire_that_leans_has_its_wider_offset(tmp_pa
     assert np.abs(ends[0] - ends[1]).max() < 1e-6
     assert prepare(program, leaning).tilt is not None
     assert prepare(program, wider).tilt is None
+
+
+def square(folder: Path, name: str, half_mm: float, shift_mm: float = 0.0) -> Path:
+    """The drawing of a square about the middle of the punch at (0, 15) mm, its sides that far off."""
+    document = ezdxf.new(units=4)
+    corners = [(x * half_mm + shift_mm, 15.0 + y * half_mm) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+    document.modelspace().add_lwpolyline(corners, close=True)
+    document.saveas(folder / name)
+    return folder / name
+
+
+@pytest.mark.parametrize(
+    ("grown_um", "shift_um", "off"),
+    [(0.0, 0.0, False), (20.0, 0.0, True), (-20.0, 0.0, True), (0.0, 20.0, True)],
+    ids=["as drawn", "too large", "too small", "shifted against the bottom"],
+)
+def test_the_edge_at_the_top_is_held_against_a_drawing_of_its_own(
+    run: Run, tmp_path: Path, grown_um: float, shift_um: float, off: bool
+) -> None:
+    reach_mm = 0.1 / 0.998629535
+    below = square(tmp_path, "below.dxf", 10.0 - reach_mm)
+    above_half_mm = 10.0 + 40.0 * 0.052407779 - reach_mm + 1e-3 * grown_um
+    top = square(tmp_path, "top.dxf", above_half_mm, 1e-3 * shift_um)
+    done = run(taper=angle(3.0), drawing=DrawingTarget(below, upper=top))
+    assert codes(done) == ["3B711"] * 2 * off
+    entry = build_report(done)["taper"]
+    assert entry is not None
+    assert entry["drawing"] is not None
+    # Table and head let the wire be off by up to 3 µm; a corner is off by √2 of its sides.
+    assert entry["drawing"]["max_um"] == pytest.approx((2.0**0.5 if grown_um else 1.0) * 20.0 * off, abs=3.5)
+    assert done.comparison is not None
+    assert done.comparison.max_um < 3.0
+
+
+def test_a_drawing_of_the_top_of_an_upright_cut_is_refused(run: Run, tmp_path: Path) -> None:
+    below = square(tmp_path, "below.dxf", 9.9)
+    with pytest.raises(SettingsError, match="the wire is upright"):
+        run(drawing=DrawingTarget(below, upper=below))
