@@ -143,6 +143,7 @@ def _scenario(path: Path, output: Path | None, options: Options) -> "Scenario":
         machine=options.machine,
         technology=options.technology,
         settings=options.proof,
+        taper=options.taper,
     )
     return overridden(path if path.is_dir() else (output or path.with_suffix(".3b")), given)
 

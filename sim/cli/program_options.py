@@ -8,7 +8,17 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeVar, get_args
 import click
 
 from parser.findings.errors import Message
-from sim.cli.options import WRITTEN_IN, Length, length_um, setting_options, taken_settings, with_options
+from sim.cli.options import (
+    TAPER_OPTIONS,
+    WRITTEN_IN,
+    Length,
+    TaperOptions,
+    length_um,
+    setting_options,
+    taken_settings,
+    taken_taper,
+    with_options,
+)
 from sim.cli.spoken.values import FilePath, offer_machines
 from sim.setup.making import PROGRAM, SIDE_WISHES, Language
 from sim.setup.part import GAP, LAYER, MATERIAL, THICKNESS, TOLERANCE, UNIT
@@ -67,6 +77,7 @@ OPTIONS = (
     click.option("--machine", metavar="NAME|FILE", shell_complete=offer_machines),
     click.option("--technology", type=FilePath(path_type=Path, dir_okay=False), metavar="FILE.toml"),
     *setting_options(OF_PROOF),
+    *TAPER_OPTIONS,
 )
 
 
@@ -93,6 +104,7 @@ class Options(NamedTuple):
     writing: Mapping[str, Any]
     drawing: Mapping[str, Any]
     proof: Mapping[str, Any]
+    taper: TaperOptions
 
 
 def options_of(options: dict[str, Any]) -> Options:
@@ -106,6 +118,7 @@ def options_of(options: dict[str, Any]) -> Options:
         writing=taken_settings(_OF_WRITING, options),
         drawing=taken_settings(OF_DRAWING, options),
         proof=proof,
+        taper=taken_taper(options),
         **options,
     )
 

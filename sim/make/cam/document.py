@@ -285,6 +285,10 @@ def _proof(proof: Proof, say: Say, lag_um: float) -> ProofEntry:
         "pieces": _pieces(proof),
         "wire": _wire(proof.wire),
         "lag": _lag(proof, lag_um) if lag_um else None,
+        "walls": [
+            {"figure": wall.figure, "z_mm": rounded(mm(wall.z_um)), "off_um": _finite(wall.off_um)}
+            for wall in proof.walls
+        ],
         "start_mm": None
         if proof.run is None or proof.run.scenario.start_mm is None
         else place(proof.run.scenario.start_mm),

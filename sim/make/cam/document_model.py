@@ -148,6 +148,14 @@ class LagEntry(TypedDict):
     face_edge_to_drawing_um: Size | None
 
 
+class WallEntry(TypedDict):
+    """How far the wall of a figure lies off at a height over the bottom of the work; null: no wall was found."""
+
+    figure: Ordinal
+    z_mm: Size
+    off_um: Size | None
+
+
 class ProofEntry(TypedDict):
     """How the program was held against its drawing, as written and as cut."""
 
@@ -160,6 +168,7 @@ class ProofEntry(TypedDict):
     pieces: PiecesEntry | None
     wire: WireEntry
     lag: LagEntry | None
+    walls: list[WallEntry]
     start_mm: Point | None
     findings: list[FindingEntry]
     unproved: list[Text]

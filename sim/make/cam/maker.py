@@ -10,6 +10,7 @@ The program that a scenario asks for, made of its drawing.
 """
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Literal, NamedTuple
 
@@ -27,6 +28,7 @@ from parser.write.draft import Draft, Written
 from parser.write.iso import IsoChoices, iso_choices
 from sim.base.progress import Progress, silent
 from sim.make.cam.compensated_draft import added_draft, draft_of_cuts, draft_of_plan, kept_draft
+from sim.make.cam.leaning import angle_words, in_plane, lean_notes, lean_of, leaning, refuse_upright_ways
 from sim.make.cam.model import CannotCutError, CutPlan, Refusal
 from sim.make.cam.passes import figure_cut
 from sim.make.cam.planned import PlanRequest, as_cut, planned
@@ -156,7 +158,7 @@ def made_program(
     Raises FileUnreadableError and DrawingError where there is no drawing, SettingsError where the dialect cannot say
     what it needs.
     """
-    request = PlanRequest(path, with_known_lag(making, wanted, scenario), scenario, progress)
+    request = _plan_request(path, making, wanted, scenario, progress)
     done = _proved(request, wanted)
     if isinstance(done, MadeProgram) and not done.is_proved and (numbers := _to_core(done)):
         request = request._replace(with_core=numbers)
@@ -171,6 +173,14 @@ def made_program(
     return done
 
 
+def _plan_request(path: Path, making: Making, wanted: Wanted, scenario: Scenario, progress: Progress) -> PlanRequest:
+    return PlanRequest(path, _leaning(making, wanted, scenario), scenario, progress)
+
+
+def _leaning(making: Making, wanted: Wanted, scenario: Scenario) -> Making:
+    return leaning(with_known_lag(making, wanted, scenario), scenario, says_angle=wanted.iso is not None)
+
+
 def with_known_lag(making: Making, wanted: Wanted, scenario: Scenario) -> Making:
     """What is asked for, with the lag that the technology knows of the last pass where nobody names another one.
 
@@ -178,7 +188,7 @@ def with_known_lag(making: Making, wanted: Wanted, scenario: Scenario) -> Making
     common.
     """
     adds = wanted.keeps or (making.passes_um and not any(making.passes_um))
-    if scenario.technology is None or making.lag_um or adds or making.common_edges:
+    if scenario.technology is None or making.lag_um or adds or making.common_edges or lean_of(scenario) is not None:
         return making
     return making._replace(lag_um=scenario.lag_um(max(len(making.passes_um), 1)))
 
@@ -216,12 +226,13 @@ def unproved(
 
     Arcs are fitted within the tolerance. Where whole µm move the written path past it, they are fitted anew, nearer.
     """
-    return _unproved(PlanRequest(path, with_known_lag(making, wanted, scenario), scenario, progress), wanted)
+    return _unproved(_plan_request(path, making, wanted, scenario, progress), wanted)
 
 
 def _unproved(request: PlanRequest, wanted: Wanted) -> MadeProgram | NotMade:
     making = request.making
     try:
+        refuse_upright_ways(making, wanted, request.scenario)
         done = _fitted(request, wanted, making.tolerance_um)
         fit = done.plan.drawing.fit
         fits = fits_um(making.tolerance_um, 0 if fit is None else fit.arcs + fit.lines)
@@ -230,7 +241,7 @@ def _unproved(request: PlanRequest, wanted: Wanted) -> MadeProgram | NotMade:
                 break
             if len(fits) > _SURELY_ALONE:
                 done = _with_drawn(done, request)
-                if not _is_rounded_off(done, request.scenario, wanted):
+                if not _is_rounded_off(done, in_plane(request.scenario), wanted):
                     break
             done = _fitted(request, wanted, fit_um)._replace(drawn=done.drawn)
     except CannotCutError as error:
@@ -242,7 +253,7 @@ def _fitted(request: PlanRequest, wanted: Wanted, fit_um: float) -> MadeProgram:
     """A program whose arcs are fitted within `fit_um`. CannotCutError where there is none, or its language has none."""
     plan = planned(request, fit_um)
     request.progress("write", 0, 1)
-    plan = plan._replace(notes=(*plan.notes, *_own_codes(wanted)))
+    plan = plan._replace(notes=(*plan.notes, *_own_codes(wanted), *lean_notes(plan, wanted)))
     plan = plan._replace(is_added=wanted.keeps and wanted.language == "4b" and any(plan.passes_um))
     draft = begun(_drafted(plan, wanted), wanted)
     text, program = _read_back(draft, request.path.stem, wanted)
@@ -298,7 +309,8 @@ def _drafted(plan: CutPlan, wanted: Wanted) -> Draft:
     if plan.making.lag_um:
         _refuse_unknown_ways(plan, wanted)
     if not wanted.keeps or not any(plan.passes_um):
-        return draft_of_plan(plan)
+        draft = draft_of_plan(plan)
+        return draft if wanted.iso is None else replace(draft, taper=angle_words(plan, draft.curves))
     wishes = tuple(wish._replace(passes_um=(0.0,) * len(wish.passes_um)) for wish in plan.making.layers)
     making = plan.making._replace(layers=wishes)
     nothing = (0.0,) * len(plan.passes_um)
@@ -356,7 +368,7 @@ def wanted_of(to_make: ToMake, language: Language, scenario: Scenario) -> Wanted
         keeps=writing.compensation == "kept",
         newline="\r\n" if writing.crlf else "\n",
         name=to_make.file.stem,
-        offset_um=_offset_um(to_make.making, scenario),
+        offset_um=_offset_um(leaning(to_make.making, scenario, says_angle=language == "iso"), in_plane(scenario)),
         end_code=writing.end_code,
         pause_code=writing.pause_code,
         encoding=writing.encoding,

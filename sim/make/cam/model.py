@@ -13,6 +13,7 @@ from parser.findings.catalogue import Remark
 from parser.geometry.curves import Curves, Floats, Ints, extents
 from parser.toolpath import Point
 from sim.setup.making import LeadIn, Making, SideWish
+from sim.setup.taper import TaperSettings
 
 FigureKind = Literal["hole", "outline"]
 ThreadedBy = Literal["asked", "marked", "chosen", "contour", "kerf"]
@@ -318,7 +319,8 @@ class CutPlan(NamedTuple):
     """All that is cut, in running order, with what it was made of.
 
     `cuts` stand in the order of the figures, `visits` in that in which the wire runs over them.
-    `is_added`: the controller adds the offset, and the program, in 4B, does not say it.
+    `is_added`: the controller adds the offset, and the program, in 4B, does not say it. `taper` is the lean of all
+    contours, None of an upright wire.
     """
 
     drawing: Drawing
@@ -330,6 +332,7 @@ class CutPlan(NamedTuple):
     notes: tuple[Remark, ...]
     visits: tuple[Visit, ...] = ()
     is_added: bool = False
+    taper: TaperSettings | None = None
 
     @property
     def of_contour(self) -> tuple[int, ...]:

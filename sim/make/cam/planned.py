@@ -1,6 +1,7 @@
 """The plan of a drawing: what is cut, from where, in which order and passes; what cannot be cut stays uncut."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import NamedTuple
 
@@ -10,6 +11,7 @@ from sim.base.progress import Progress, silent
 from sim.make.cam.apart import moved_apart
 from sim.make.cam.contacts import walls
 from sim.make.cam.coreless import coreless
+from sim.make.cam.leaning import in_plane, lean_of, wall_shift_um
 from sim.make.cam.model import (
     CannotCutError,
     CutPlan,
@@ -55,7 +57,8 @@ def planned(request: PlanRequest, fit_um: float | None = None) -> CutPlan:
     Figures that cannot be cut stay uncut, as long as others can. CannotCutError where none can, or where the drawing
     asks for what cannot be.
     """
-    path, making, scenario, progress, at_fault, with_core, whole = request
+    path, making, given, progress, at_fault, with_core, whole = request
+    scenario = in_plane(given)
     progress("drawing", 0, 1)
     fit_um = making.tolerance_um if fit_um is None else fit_um
     drawing = read_drawing(path, making.layer, making.gap_um, fit_um=fit_um, unit=making.unit)
@@ -70,7 +73,7 @@ def planned(request: PlanRequest, fit_um: float | None = None) -> CutPlan:
             plan = _plan_of(drawing, parts, making, scenario, whole)
             plan = coreless(plan, with_core) if making.no_core else plan
             cuts, visits = visited(plan.cuts, making)
-            return plan._replace(cuts=cuts, visits=visits)
+            return plan._replace(cuts=cuts, visits=visits, taper=lean_of(given))
         except CannotCutError as error:
             rest = parts.without(error.refusals)
             if len(rest.figures) in {0, len(parts.figures)}:
@@ -98,13 +101,33 @@ def _plan_of(
     notes = (*parts.notes, *walls(figures, widest_um, scenario.wire.reach_um))
     nests = nests_of(figures, making, passes_um[0], whole)
     in_kerf = {at: each.thread for at, each in nests.in_kerf.items()}
-    threads = threads_of(drawing, figures, making, max(widest_um), in_kerf)
+    threads = _threads(drawing, figures, making, scenario, max(widest_um), in_kerf)
     notes += (*nests.notes, *thread_notes(figures, threads, making))
     notes += tuple(spare_notes(drawing, list(zip(figures, threads, strict=True)), making.spared))
     order = nests.in_order(in_order(figures, threads, making))
     ways = [nests.in_kerf.get(each) if threads[each].by == "kerf" else None for each in order]
     cuts = _cuts([(figures[each], threads[each]) for each in order], ways, passes_um, making)
     return CutPlan(drawing, making, passes_um, cuts, parts.uncut, parts.left_out, notes)
+
+
+def _threads(  # noqa: PLR0913, PLR0917 - as `threads_of` has them, with the lean
+    drawing: Drawing,
+    figures: Sequence[Figure],
+    making: Making,
+    scenario: Scenario,
+    widest_um: float,
+    in_kerf: Mapping[int, Thread],
+) -> tuple[Thread, ...]:
+    """Where figures are threaded. CannotCutError where there is no room.
+
+    Where walls lean, contours come nearer to thread points at other heights, and a lead that is shorter than that cuts
+    into the part. Where there is no room for as much, the proof says whether it does.
+    """
+    moved_um = wall_shift_um(scenario)
+    if moved_um:
+        with suppress(CannotCutError):
+            return threads_of(drawing, figures, making, widest_um + moved_um, in_kerf)
+    return threads_of(drawing, figures, making, widest_um, in_kerf)
 
 
 def _cuts(

@@ -23,6 +23,7 @@ from parser.toolpath import Point, Toolpath
 from parser.units import mm
 from sim.base.progress import Progress, silent
 from sim.cut.pieces.pieces import Piece, Pieces
+from sim.make.cam.heights import wall_faults, walls_off
 from sim.make.cam.model import CutPlan, FigureCut, NotProved, with_sides
 from sim.make.cam.target import AsRun, Faces, Fault, Proof, Target, as_run, target_of
 from sim.make.cam.visits import figure_rows
@@ -139,13 +140,15 @@ def proved(given: ToProve, scenario: Scenario, progress: Progress = silent) -> P
         return ran
     path, of_path = _path(given, target, run, how)
     cut, of_cut = _as_cut(given, target, run, how)
+    walls = () if run.tilted is None else tuple(walls_off(run.tilted, plan, target))
     faces = _faces(given, target, scenario, how)
     done = ran._replace(
         path=path,
         comparison=cut,
         findings=(*ran.findings, *of_cut.findings),
-        faults=(*ran.faults, *of_path.faults, *of_cut.faults),
+        faults=(*ran.faults, *of_path.faults, *of_cut.faults, *wall_faults(walls, plan.making.held_to_um)),
         unproved=(*ran.unproved, *of_path.unproved, *of_cut.unproved),
+        walls=walls,
         notes=(*ran.notes, *_of_faces(faces)),
         faces=faces,
     )

@@ -24,6 +24,7 @@ from parser.geometry.curves import Curves, Floats, Ints, curves_between, extents
 from parser.toolpath import Point, Toolpath
 from parser.units import mm
 from sim.check.travel import middle_mm
+from sim.make.cam.leaning import cosine_of, in_plane
 from sim.make.cam.model import CutPlan, Figure, NotProved
 from sim.measure.compare.result import Comparison
 from sim.measure.compare.rings import polygon
@@ -67,6 +68,15 @@ class Faces(NamedTuple):
     comparison: Comparison
 
 
+class WallOff(NamedTuple):
+    """How far the wall of a figure lies off at a height over the bottom of the work, and where; infinity: no wall."""
+
+    figure: int
+    z_um: float
+    off_um: float
+    where_um: Point
+
+
 class Proof(NamedTuple):
     """What reading, checking and running a written program shows, beside its drawing.
 
@@ -94,6 +104,8 @@ class Proof(NamedTuple):
         The figures that fail where others do not, each with what it fails by.
     faces
         The edge at the upper and lower face of the work; None where no lag is corrected, or none is known there.
+    walls
+        How far walls lie off at each height; empty of an upright wire.
     """
 
     run: DryRun | None
@@ -107,6 +119,7 @@ class Proof(NamedTuple):
     wire: Wire
     at_fault: tuple[NotProved, ...] = ()
     faces: Faces | None = None
+    walls: tuple[WallOff, ...] = ()
 
     @property
     def counting(self) -> tuple[Finding, ...]:
@@ -338,11 +351,14 @@ def as_run(scenario: Scenario, plan: CutPlan, toolpath: Toolpath) -> AsRun:
     for_proof = replace(for_proof, start_mm=scenario.start_mm or middle_mm(toolpath, scenario.machine.table))
     if plan.making.lag_um:
         for_proof = replace(for_proof, wire=replace(scenario.wire, lag=plan.making.lag_um))
-    edge_um = tuple(least_um(cut.figure, plan.making, scenario.wire.reach_um) for cut in plan.cuts)
-    least = min(edge_um, default=scenario.wire.reach_um)
+    if toolpath.leans and for_proof.taper is not None:
+        for_proof = replace(for_proof, taper=for_proof.taper._replace(angle_rad=None))
+    reach_um = in_plane(scenario).wire.reach_um
+    edge_um = tuple(least_um(cut.figure, plan.making, reach_um) for cut in plan.cuts)
+    least = min(edge_um, default=reach_um)
     if least <= 0.0:
         return _by_controller(for_proof, plan, edge_um)
-    wire = _wire(for_proof.wire, least)
+    wire = _wire(for_proof.wire, least * cosine_of(scenario))
     if wire is None:
         return AsRun(replace(for_proof, kerf=False), edge_um, (), (Remark("no-wire", {"offset": least}),))
     notes = (*_run_remarks(for_proof.wire, wire), *_lag_remarks(scenario, plan.making.lag_um))

@@ -3,6 +3,7 @@
 The proof of a made program on the terminal: how far it is off, what was found, and the verdict.
 """
 
+import math
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -63,7 +64,16 @@ def proof_lines(done: MadeProgram, name: str, language: Language, width: int) ->
             machine=machine_name(proof.run.scenario.machine),
         )
         yield from wrapped(text, width, "", _INDENT)
+    if proof.walls and all(wall.off_um < math.inf for wall in proof.walls):
+        yield from wrapped(_walls(done, words), width, "", _INDENT)
     yield styled(words(f"program.verdict-{proof.verdict}"), f"bold {COLOURS[proof.verdict]}")
+
+
+def _walls(done: MadeProgram, words: Words) -> str:
+    walls = () if done.proof is None else done.proof.walls
+    off = f"{max(wall.off_um for wall in walls):.2f}"
+    heights = len({wall.z_um for wall in walls})
+    return words("program.walls", heights=heights, off=off, tolerance=f"{done.plan.making.held_to_um:g}")
 
 
 def advice(done: MadeProgram, language: Language, tab: str) -> Iterator[str]:
