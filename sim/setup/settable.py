@@ -41,6 +41,8 @@ SETTABLE: Final = dict(_settable())
 """The keys that have an option, by where a scenario keeps their values; some have a field of the page, too."""
 FIELDS: Final = {key.form: key for key in SETTABLE.values() if key.form}
 """Those that have a field of the page, by its name."""
+TAPER_FIELDS: Final = ("taper_deg", "taper_side", "taper_corner", "plane_mm")
+"""Fields of the page on a wire that leans; without an angle it is upright, or leans as its program says."""
 
 
 def with_settings(scenario: Whole, values: Mapping[str, Any], **others: Any) -> Whole:

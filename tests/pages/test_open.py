@@ -652,3 +652,21 @@ def test_a_machine_file_that_is_dropped_is_chosen_and_checked_by(browsers: Brows
         shown.page.locator("#status", has_text="wrong.toml").wait_for()
         assert shown.page.input_value("[name=machine]") == "own-0", "the other one stays"
         assert shown.text() == file.read_text(), "and the program"
+
+
+def test_a_wire_that_leans_is_set_in_the_form(browsers: Browsers, keyhole: OpenedPage) -> None:
+    with tab(browsers, keyhole.address) as shown:
+        shown.waits_for("pass")
+        shown.page.click("#tab-run")
+        shown.page.fill("input[name=taper_deg]", "61")
+        assert "61" in shown.page.inner_text("#wrong")
+        shown.page.fill("input[name=taper_deg]", "0.5")
+        shown.page.select_option("select[name=taper_side]", "left")
+        shown.page.fill("input[name=thickness_mm]", "10")
+        shown.page.wait_for_function("() => document.querySelector('#size').textContent.includes('in 10 mm')")
+        shown.page.click("#start")
+        shown.page.wait_for_selector("#looks button")
+        address = shown.page.get_attribute("#files a:text-is('report.json')", "href")
+        report = shown.page.evaluate("(address) => fetch(address).then((answer) => answer.json())", address)
+        assert report["taper"]["angle_deg"] == 0.5
+        assert complaints(shown.page) == []

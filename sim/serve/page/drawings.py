@@ -13,7 +13,7 @@ from parser.files import PLOTS, kind_of
 from parser.text.encoding import printable
 from sim.serve.page.child import Child, begun
 from sim.serve.page.machines import machine_files
-from sim.setup.settable import FIELDS
+from sim.setup.settable import FIELDS, TAPER_FIELDS
 
 _UNSAFE: Final = re.compile(r"[^\w.-]")
 _LONGEST: Final = 60
@@ -26,13 +26,14 @@ def safe_name(name: str) -> str:
 
 READ_KEYS: Final = ("join_mm", "unit")
 """How the page has a drawing read."""
-LOOK_KEYS: Final = ("name", "text", "machine", "technology", *FIELDS, "offset_mm", "side", *READ_KEYS)
+LOOK_KEYS: Final = ("name", "text", "machine", "technology", *FIELDS, "offset_mm", "side", *TAPER_FIELDS, *READ_KEYS)
 """What the page says where a drawing is to be laid beneath its program."""
 MAKE_KEYS: Final = (
     "language",
     "machine",
     "technology",
     *FIELDS,
+    *TAPER_FIELDS,
     "offset_mm",
     "tab_mm",
     "slug_tab_mm",

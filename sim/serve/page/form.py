@@ -1,5 +1,6 @@
 """The form of the page as a scenario: its texts are read here, and held to the bounds of every other door."""
 
+import math
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
@@ -12,6 +13,7 @@ from parser.text.encoding import narrow
 from parser.units import from_mm
 from sim.serve.page.child import PageRequest
 from sim.serve.page.machines import machine_of, technology_of
+from sim.setup.machine.guides import ANGLE_DEG
 from sim.setup.machine.machine import Machine, machine_names
 from sim.setup.part import (
     DEFAULT_THICKNESS_MM,
@@ -26,6 +28,7 @@ from sim.setup.part import (
 )
 from sim.setup.scenario import DEFAULT_MACHINE, Scenario, load_scenario, with_values
 from sim.setup.settable import FIELDS
+from sim.setup.taper import PLANE_MM, TaperSettings
 from sim.setup.toml.keys import Key
 from sim.setup.toml.kinds import Number
 from sim.setup.toml.reader import Bound, number
@@ -36,6 +39,8 @@ _NAMES: Final = {
     "wire_mm": Message("name-wire"),
     "gap_mm": Message("name-spark-gap"),
     "lag_um": Message("name-lag"),
+    "taper_deg": Message("name-taper"),
+    "plane_mm": Message("name-program-plane"),
 }
 """What the fields are called where something is wrong with them."""
 
@@ -59,7 +64,20 @@ def scenario_of(request: PageRequest, file: Path) -> Scenario:
     scenario = with_values(scenario, given, technology)
     if request["drawing_file"]:
         scenario = replace(scenario, drawing=DrawingTarget(Path(request["drawing_file"])))
-    return replace(scenario, offset=_offset(request), kerf=True)
+    return replace(scenario, offset=_offset(request), taper=_taper(request) or scenario.taper, kerf=True)
+
+
+def _taper(request: PageRequest) -> TaperSettings | None:
+    """The lean that the page asks for, or where the program plane lies; None where it says nothing of either."""
+    angle, plane = request["taper_deg"], request["plane_mm"]
+    if not angle and not plane:
+        return None
+    return TaperSettings(
+        angle_rad=math.radians(number_of(angle, ANGLE_DEG, _NAMES["taper_deg"])) if angle else None,
+        side=SIDES["left" if request["taper_side"] == "left" else "right"],
+        corner="cone" if request["taper_corner"] == "cone" else "sharp",
+        program_plane_um=from_mm(number_of(plane, PLANE_MM, _NAMES["plane_mm"])) if plane else 0.0,
+    )
 
 
 def _setting(text: str, key: Key) -> float:

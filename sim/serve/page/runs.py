@@ -31,9 +31,9 @@ from sim.serve.page.child import Child, Life, begun
 from sim.serve.page.drawings import LOOK_KEYS, MAKE_KEYS, PLAN_KEYS, Drawings, safe_name
 from sim.serve.page.machines import machine_files
 from sim.serve.page.programs import Programs
-from sim.setup.settable import FIELDS
+from sim.setup.settable import FIELDS, TAPER_FIELDS
 
-KEYS: Final = ("machine", "technology", *FIELDS, "offset_mm", "side")
+KEYS: Final = ("machine", "technology", *FIELDS, "offset_mm", "side", *TAPER_FIELDS)
 """What the page may say of a run, as texts; empty ones leave what is usual."""
 MORE_KEYS: Final = ("job", "form", "seconds", "set", "language")
 """What it may say of a film, of pictures, or of fault drills."""

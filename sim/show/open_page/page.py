@@ -7,11 +7,13 @@ from typing import Final
 
 from parser.drawing.model import DEFAULT_GAP_UM
 from parser.units import mm
+from sim.setup.machine.guides import ANGLE_DEG
 from sim.setup.machine.machine import machine_names
 from sim.setup.making import DIRECTION_WISHES, LANGUAGES, SIDE_WISHES
 from sim.setup.part import DRAWING_UNITS, OFFSET_MM
 from sim.setup.scenario import DEFAULT_MACHINE
 from sim.setup.settable import FIELDS
+from sim.setup.taper import PLANE_MM
 from sim.setup.wire import DEFAULT_WIRE
 from sim.show.html.environment import rendered
 from sim.show.keys import OF_PAGE, actions_of
@@ -41,6 +43,8 @@ def open_page(starts: Sequence[str]) -> tuple[str, str]:
         default_machine=DEFAULT_MACHINE,
         fields=FIELDS,
         offset_mm=OFFSET_MM,
+        angle_deg=ANGLE_DEG,
+        plane_mm=PLANE_MM,
         starts=starts,
         actions=actions_of(OF_PAGE),
         reach=f"{mm(DEFAULT_WIRE.reach_um):g}",

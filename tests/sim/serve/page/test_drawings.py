@@ -19,6 +19,7 @@ from sim.serve.page.answers import answer
 from sim.serve.page.drafter import _make
 from sim.serve.page.drawings import LOOK_KEYS, MAKE_KEYS, PLAN_KEYS, is_drawing
 from sim.serve.page.planner import _look
+from sim.serve.page.runs import KEYS
 
 # The plate of `plate` as a punch: the wire of 0.18 mm and its gap of 10 µm run 0.1 mm outside, from a thread point
 # that lies 1 mm above its upper edge, at (0, 0) of the program.
@@ -306,7 +307,7 @@ def test_what_cannot_be_made_says_why(served: OpenedPage, dxf: bytes, drawing: P
 
 @pytest.mark.deeper
 def test_a_run_is_held_against_it(served: OpenedPage, dxf: bytes) -> None:
-    told = dict.fromkeys(("machine", "thickness_mm", "wire_mm", "gap_mm", "lag_um", "offset_mm", "side"), "")
+    told = dict.fromkeys(KEYS, "")
     wrong = PUNCH.replace("10200", "10300")
     asked = {**told, "name": "part.3b", "text": wrong, "number": "", "drawing": came(served, dxf)}
     assert served.ask("run", json.dumps(asked)).status == 200
