@@ -5,6 +5,7 @@ of it by more than that of an upright wire: a round wire that leans by T across 
 wide.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Final, Literal, NamedTuple
 
@@ -148,6 +149,20 @@ def tilted_cut(program: Program, axes: FourAxes, scenario: Scenario, wire: WireR
     sections = tuple(_section(moved, z_um, scenario if kerf else None) for z_um in heights)
     volume = sum(abs(path.ruled.volume_um3(loop, 0.0, work_um)) for loop in path.loops) * _MM3_PER_UM3
     return TiltedCut(axes, sections, volume, _solids(sections, work_um, scenario))
+
+
+def with_pieces(cut: TiltedCut, program: Program, scenario: Scenario) -> TiltedCut:
+    """The same cut of a program with the pieces of all sections, where nobody had asked for them."""
+    sections = tuple(replace(each, pieces=_pieces(program, each, scenario)) for each in cut.sections)
+    return replace(cut, sections=sections, solids=_solids(sections, cut.path.heights.work_um, scenario))
+
+
+def weighed(pieces: Pieces, solids: Sequence[Solid]) -> Pieces:
+    """Pieces in the program plane with the masses of the solids that they are of, where these are as many."""
+    if len(solids) != len(pieces.freed):
+        return pieces
+    freed = (piece._replace(mass_g=solid.mass_g) for piece, solid in zip(pieces.freed, solids, strict=True))
+    return pieces._replace(freed=tuple(freed))
 
 
 class _Moved(NamedTuple):

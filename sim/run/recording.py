@@ -20,6 +20,7 @@ from sim.base.progress import Progress, silent
 from sim.cut.pieces.pieces import Frame, Pieces
 from sim.cut.regions import RegionError
 from sim.cut.remains import pieces_left
+from sim.cut.solids import weighed, with_pieces
 from sim.run.dryrun import DryRun
 from sim.run.findings import expectation_findings
 from sim.run.report import build_report
@@ -108,9 +109,12 @@ def pieces_of_run(run: DryRun) -> Pieces:
     if run.remains is not None:
         return run.remains.pieces
     try:
-        return pieces_left(run.program, run.cut, run.contours, run.scenario, run.reach_um)
+        pieces = pieces_left(run.program, run.cut, run.contours, run.scenario, run.reach_um)
     except RegionError:
         return NO_PIECES
+    if run.tilted is None:
+        return pieces
+    return weighed(pieces, with_pieces(run.tilted, run.program, run.scenario).solids)
 
 
 def _passes(run: DryRun) -> float:

@@ -6,6 +6,7 @@ What a run leaves, worked out as far as its scenario asks: kerf, pieces and size
 """
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -25,6 +26,7 @@ from sim.check.result import CheckState
 from sim.cut.findings import missed_work_findings, obstacle_findings, piece_findings, region_finding
 from sim.cut.regions import RegionError
 from sim.cut.remains import Remains, remains_of
+from sim.cut.solids import Solid, weighed
 from sim.cut.wire_lag import bowed
 from sim.cut.wire_rows import WireRows, wire_rows
 from sim.measure.causes import Meters
@@ -92,10 +94,11 @@ def left_of(  # noqa: PLR0913, PLR0917 - all that is known of the cut, and whom 
     *,
     is_whole: bool,
     measured: bool,
+    solids: Sequence[Solid] = (),
 ) -> CutResult:
     """What a cut leaves, as far as the scenario asks for it; `measured`, with all its sizes and plays.
 
-    `reach_um` (n,) is half the width of the kerf in each row.
+    `reach_um` (n,) is half the width of the kerf in each row, `solids` are the pieces of a wire that leans.
 
     A run that is not whole, since it ended early, is not held against the drawing: all that differs comes of that.
     """
@@ -105,6 +108,7 @@ def left_of(  # noqa: PLR0913, PLR0917 - all that is known of the cut, and whom 
     progress("kerf", 0, 1)
     try:
         remains = remains_of(program, cut, contours, scenario, reach_um)
+        remains = replace(remains, pieces=weighed(remains.pieces, solids))
         remains = remains.measured() if measured else remains
     except RegionError as error:
         state = CheckState(_REMAINS, "incomplete", "reason-no-region")
@@ -190,7 +194,16 @@ def run_along(
         reach_um = reach_um / np.cos(ready.tilt.wall_rad(len(toolpath)))
     is_whole = ended is None
     left = left_of(
-        program, cut, contours, scenario, drawings.plane, reach_um, progress, is_whole=is_whole, measured=measured
+        program,
+        cut,
+        contours,
+        scenario,
+        drawings.plane,
+        reach_um,
+        progress,
+        is_whole=is_whole,
+        measured=measured,
+        solids=() if tilted is None else tilted.solids,
     )
     top = compared_at_top(program, tilted, scenario, drawings.top, left.comparison)
     found = [

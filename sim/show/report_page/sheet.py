@@ -11,6 +11,7 @@ from sim.run.dryrun import DryRun
 from sim.run.recording import NO_PIECES
 from sim.run.report.model import ReportDocument
 from sim.run.report.run_model import ThreadPointEntry
+from sim.run.report.taper import TaperEntry
 from sim.setup.key_words import words_of
 from sim.setup.part import DEFAULT_DENSITY_G_CM3, SHEET
 from sim.show.report_page.findings import ShownFinding, gravest_findings
@@ -109,11 +110,33 @@ def _facts(run: DryRun, report: ReportDocument, pieces: Pieces) -> Iterator[Fact
     yield Fact(bilingual("sheet.machine"), machine_name(run.scenario.machine))
     yield Fact(bilingual("sheet.work"), _work(work["thickness_mm"], work["density_g_cm3"]))
     yield Fact(bilingual("sheet.wire"), bilingual("sheet.wire-is", kerf=f"{mm(wire['kerf_um']):g}", **sizes))
+    if report["taper"] is not None:
+        yield Fact(bilingual("sheet.taper"), _taper(run, report["taper"]))
+        yield Fact(bilingual("sheet.planes"), _planes(report["taper"]))
     yield Fact(bilingual("sheet.offset"), _offset(report))
     yield Fact(bilingual("sheet.passes"), _passes(report))
     yield Fact(bilingual("sheet.length"), bilingual("sheet.length-is", length=f"{mm(run.ran_um):,.3f}"))
     yield Fact(bilingual("sheet.time"), _time(run))
     yield Fact(bilingual("sheet.pieces"), _pieces(pieces))
+
+
+def _taper(run: DryRun, taper: TaperEntry) -> Bilingual:
+    """What is to be set at the control where the program does not say it, and how far U and V go."""
+    settings, most = run.scenario.taper, f"{mm(taper['uv_most_um']['corner']):.3f}"
+    if settings is None or not settings.angle_rad:
+        name = "two" if taper["angle_deg"] is None else "told"
+        return bilingual(f"sheet.taper-{name}", angle=f"{taper['angle_deg'] or 0.0:g}", most=most)
+    return bilingual(f"sheet.taper-{settings.side.name.lower()}", angle=f"{taper['angle_deg']:g}", most=most)
+
+
+def _planes(taper: TaperEntry) -> Bilingual:
+    z_mm = {plane["plane"]: plane["z_mm"] for plane in taper["planes"]}
+    return bilingual(
+        "sheet.planes-assumed" if taper["guides_assumed"] else "sheet.planes-are",
+        program=f"{z_mm['program']:g}",
+        below=f"{-z_mm['lower-guide']:g}",
+        above=f"{z_mm['upper-guide'] - z_mm['top']:g}",
+    )
 
 
 def _work(thickness_mm: float, density_g_cm3: float) -> Bilingual:

@@ -1,5 +1,6 @@
 """The job sheet: what it says of weight, time, offset and findings, against figures worked out by hand."""
 
+import math
 import re
 
 import pytest
@@ -9,6 +10,8 @@ from runs import scenario_run
 from parser.findings.codes import Severity
 from sim.run.recording import NO_PIECES
 from sim.run.report import build_report
+from sim.setup.part import SIDES
+from sim.setup.taper import TaperSettings
 from sim.show.report_page.findings import MOST
 from sim.show.report_page.sheet import Sheet, sheet_of
 
@@ -43,6 +46,29 @@ def test_a_material_that_nobody_named_is_said_to_be_assumed(density_g_cm3: float
     work = fact(sheet(TWO, density_g_cm3=density_g_cm3), "work")
     assert f"{density_g_cm3:g} g/cm³" in work
     assert ("steel assumed" in work) is assumed
+
+
+def test_a_wire_that_leans_is_set_at_the_control_by_the_sheet() -> None:
+    taper = TaperSettings(math.radians(3.0), SIDES["left"], program_plane_um=2000.0)
+    made = sheet(SQUARE + "DD\n", taper=taper, thickness_mm=20.0)
+    # Guides 60 mm below the work and 100 mm above it: 180 mm apart, √2 as far at a sharp corner.
+    most = 180.0 * math.tan(math.radians(3.0)) * math.sqrt(2.0)
+    assert fact(made, "taper") == f"set 3°, upper end left of travel; U, V go up to {most:.3f} mm"
+    guides = "guides assumed 60 mm below the work, 100 mm above it"
+    assert fact(made, "planes and guides") == f"program 2 mm over the bottom; {guides}"
+    assert not [each for each in sheet(SQUARE + "DD\n").facts if each.name.en in {"taper", "planes and guides"}]
+
+
+@pytest.mark.parametrize("kerf", [True, False])
+def test_a_part_that_leans_weighs_what_its_solid_does(kerf: bool) -> None:
+    big = SQUARE.replace("3000", "20000")
+    taper = TaperSettings(math.radians(3.0), SIDES["right"])
+    made = sheet(big + "DD\n", taper=taper, kerf=kerf)
+    sides = [20.0 - 0.2 / math.cos(math.radians(3.0)) + by for by in (0.0, 80.0 * math.tan(math.radians(3.0)))]
+    grams = 7.85e-3 * 40.0 / 3.0 * (sides[0] ** 2 + sides[1] ** 2 + sides[0] * sides[1])
+    told = re.fullmatch(r"1 part, ([\d.]+) g", fact(made, "pieces"))
+    assert told is not None
+    assert float(told[1]) == pytest.approx(grams, rel=1e-3)
 
 
 def test_pieces_that_could_not_be_worked_out_are_not_said_to_be_none() -> None:
