@@ -8,8 +8,8 @@ from page_checks import complaints
 from runs import scenario_run
 
 from sim.run.report.document import build_report
+from sim.show.html.walls import walls_entry
 from sim.show.report_page.page import report_page
-from sim.show.report_page.walls import walls_entry
 
 
 @cache

@@ -22,24 +22,26 @@ from parser.documents import Limits, Point
 from sim.serve.page.model import ANSWERS
 from sim.show.drill_page.page import DrillsEntry
 from sim.show.html.packed import PackedEntry
+from sim.show.html.walls import WallsEntry
 from sim.show.index_page.model import IndexEntry
 from sim.show.lesson_page.model import LessonEntry
 from sim.show.operation_page.model import OperationEntry
 from sim.show.panel_page.model import PanelEntry
+from sim.show.replay.lean import LeanEntry
 from sim.show.replay.model import ReplayDocument
 from sim.show.replay.sparks import SparkTapeEntry
 from sim.show.report_page.tables import TableDataEntry
-from sim.show.report_page.walls import WallsEntry
 from sim.teach.handins import HandInDocument
 
 ROOT = Path(__file__).parents[2]
 SHOW = ROOT / "sim" / "show"
 DOCUMENTS: dict[Path, Sequence[type]] = {
     SHOW / "html" / "assets" / "packed.js": [PackedEntry],
+    SHOW / "html" / "assets" / "walls.js": [WallsEntry],
+    SHOW / "replay" / "assets" / "lean.js": [LeanEntry],
     SHOW / "replay" / "assets" / "document.js": [ReplayDocument],
     SHOW / "replay" / "assets" / "sparks.js": [SparkTapeEntry],
     SHOW / "report_page" / "assets" / "data.js": [TableDataEntry],
-    SHOW / "report_page" / "assets" / "walls.js": [WallsEntry],
     SHOW / "index_page" / "assets" / "data.js": [IndexEntry],
     SHOW / "drill_page" / "assets" / "data.js": [DrillsEntry],
     SHOW / "lesson_page" / "assets" / "data.js": [LessonEntry, HandInDocument],

@@ -48,6 +48,7 @@ from sim.show.draw.style import paint_of_pass, tones_of
 from sim.show.html.environment import rendered
 from sim.show.html.packed import packed
 from sim.show.keys import OF_PAGE, actions_of
+from sim.show.replay.lean import lean_entry
 from sim.show.replay.model import (
     BlocksEntry,
     ContourEntry,
@@ -295,14 +296,16 @@ def replay_page(recording: Recording) -> str:
     """HTML of ``replay.html`` for a recorded run."""
     tones = tones_of(each for each, _ in passes_of(recording.run))
     scenario = recording.run.scenario
+    lean = lean_entry(recording.run)
     values = {
         "document": _handed_over(replay_document(recording)),
         "machine": machine_name(scenario.machine),
         "titles": scenario.titles,
         "tones": tones,
+        "sparks": spark_tape(recording.run),
+        "walls": lean and {**lean, "lower": _packed(lean["lower"]), "upper": _packed(lean["upper"])},
     }
-    sparks = spark_tape(recording.run)
-    return rendered(_ASSETS, "replay.html.j2", **values, sparks=sparks, keys=OF_PAGE, actions=actions_of(OF_PAGE))
+    return rendered(_ASSETS, "replay.html.j2", **values, keys=OF_PAGE, actions=actions_of(OF_PAGE))
 
 
 def _handed_over(document: ReplayDocument) -> dict[str, Any]:

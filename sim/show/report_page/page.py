@@ -34,6 +34,7 @@ from sim.setup.toml.keys import Key, Section, WrittenSection, toml_text, toml_va
 from sim.setup.toml.kinds import Keys, OneOf
 from sim.show.draw.style import DARK, OF_LEANS, Theme, hexadecimal
 from sim.show.html.environment import rendered
+from sim.show.html.walls import walls_entry
 from sim.show.pictures.inline import Inline
 from sim.show.refusals import machine_values, taken_for_granted
 from sim.show.report_page.figures import key_figures, time_figures, why
@@ -61,7 +62,6 @@ from sim.show.report_page.tables import (
     worst_table,
     yes_or_no,
 )
-from sim.show.report_page.walls import walls_entry
 from sim.show.texts import bilingual
 from sim.show.texts.phrases import machine_name, same
 

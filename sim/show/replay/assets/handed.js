@@ -8,7 +8,7 @@ import { unpacked } from "../../html/assets/packed.js";
  * Columns with their values at hand: of long ones typed arrays, which do all that is asked of columns.
  * @param {Record<string, ArrayLike<unknown> | Packed | null>} columns
  */
-async function columnsOf(columns) {
+export async function columnsOf(columns) {
   const found = Object.entries(columns).map(async ([name, column]) => [name, column && (await unpacked(column))]);
   return Object.fromEntries(await Promise.all(found));
 }
