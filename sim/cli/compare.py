@@ -1,27 +1,34 @@
 """``drycut compare``."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from sim.cli.options import (
+    TAPER_OPTIONS,
     Length,
     Offsets,
     OrRegister,
     offsets_of,
     setting_options,
     taken_settings,
+    taken_taper,
+    taper_of,
     with_dialect,
     with_options,
 )
 from sim.cli.spoken import Spoken, spoken, words
 from sim.cli.spoken.values import FilePath
-from sim.setup.part import DRAWING
+from sim.setup.part import DRAWING, THICKNESS
 
 if TYPE_CHECKING:
     from parser.dialect.reader import ChosenDialect
     from parser.program import Program
+    from sim.measure.compare.result import FitRequest
+    from sim.run.faces import CutOffset, Faces
+    from sim.setup.part import DrawingTarget
     from sim.setup.scenario import Scenario
 
 
@@ -34,7 +41,9 @@ if TYPE_CHECKING:
     multiple=True,
 )
 @with_dialect
-@with_options(setting_options(DRAWING.keys))
+@click.option("--drawing-upper", type=FilePath(path_type=Path, dir_okay=False), metavar="DXF")
+@with_options(setting_options([*DRAWING.keys, THICKNESS]))
+@with_options(TAPER_OPTIONS)
 @click.option("--json", "as_json", is_flag=True)
 def compare(  # noqa: PLR0913 - click hands over each option by its name
     *,
@@ -44,6 +53,7 @@ def compare(  # noqa: PLR0913 - click hands over each option by its name
     unit: str | None,
     as_json: bool,
     drawing: Path | None,
+    drawing_upper: Path | None,
     **options: Any,
 ) -> None:
     """Compare the edge that a program cuts with a drawing (DXF).
@@ -52,32 +62,34 @@ def compare(  # noqa: PLR0913 - click hands over each option by its name
     drycut compare part.3b part.dxf --offset 0.1mm --tolerance 5um
     drycut compare part.3b part.dxf --layer CUT --json
     drycut compare scenarios/punch
+    drycut compare part.3b below.dxf --drawing-upper top.dxf --taper 3deg --height 40mm
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
-    from parser.drawing.read import read_drawing
     from sim.cli.scenario_options import drawing_target, of_options, read_with
-    from sim.measure.compare.compare import compare_program
     from sim.measure.compare.result import FitRequest
     from sim.run.report.drawing import document_text
-    from sim.setup.scenario import load_scenario
+    from sim.setup.scenario import load_scenario, with_values
     from sim.show.terminal.compare import print_comparison
     from sim.show.terminal.printer import write
 
     given = _checked(offsets_of(offset))
     scenario = read_with(load_scenario(path), dialect, unit, given.registers)
     settings = of_options(DRAWING.keys, taken_settings(DRAWING.keys, options))
-    target = drawing_target(scenario.drawing, drawing, None, settings)
+    thickness = of_options([THICKNESS], taken_settings([THICKNESS], options))
+    scenario = with_values(scenario, thickness, None)
+    scenario = replace(scenario, taper=taper_of(taken_taper(options), scenario.taper))
+    target = drawing_target(scenario.drawing, drawing, drawing_upper, settings)
     if target is None:
         raise click.MissingParameter(param_hint="DRAWING.dxf", param_type="argument")
     program = _program(scenario)
-    offset_um, source = _offset(given.plain, program, scenario)
-    drawn = read_drawing(target.file, layer=target.layer, gap_um=target.gap_um, unit=target.unit)
+    cut_offset, source = _offset(given.plain, program, scenario)
     request = FitRequest(target.tolerance_um, target.fit, target.sharp_corners)
-    done = compare_program(program.toolpath, offset_um, drawn, request)
+    done = _compared(program, scenario, cut_offset, target, request)
     if as_json:
-        write(document_text(done), "json")
+        write(document_text(done.plane, done.top), "json")
     else:
-        print_comparison(done, program.name, program.toolpath.source.names, source, spoken())
-    raise click.exceptions.Exit(0 if done.passes else 1)
+        for each in filter(None, done):
+            print_comparison(each, program.name, program.toolpath.source.names, source, spoken())
+    raise click.exceptions.Exit(0 if all(each.passes for each in done if each is not None) else 1)
 
 
 def _checked(given: Offsets) -> Offsets:
@@ -91,33 +103,52 @@ def _checked(given: Offsets) -> Offsets:
 
 
 def _program(scenario: "Scenario") -> "Program":
-    """The program of a scenario, with the offset that its controller is to add; one that cannot be read is refused."""
+    """The program of a scenario; one that cannot be read is refused."""
     from parser.findings.errors import ProgramError
     from parser.program import moving
     from sim.check.travel import refuse_too_large
     from sim.cli.scenario_options import refused
     from sim.jobs.shop import program_read, source_of
-    from sim.run.prepare import as_run_in
 
     try:
         program = moving(program_read(scenario, source_of(scenario)))
         refuse_too_large(program)
-        return as_run_in(program, scenario)
+    except ProgramError as error:
+        raise refused(scenario, error) from None
+    return program
+
+
+def _compared(
+    program: "Program", scenario: "Scenario", offset: "CutOffset", target: "DrawingTarget", request: "FitRequest"
+) -> "Faces":
+    """The edge beside its drawing, at the top too; a program that cannot run is refused."""
+    from parser.findings.errors import ProgramError
+    from sim.cli.scenario_options import refused
+    from sim.run.faces import compared_faces
+    from sim.run.running import drawings_of
+
+    plane, top = drawings_of(target)
+    assert plane is not None  # noqa: S101 - there is a target
+    try:
+        return compared_faces(program, scenario, offset, (plane, top), request)
     except ProgramError as error:
         raise refused(scenario, error) from None
 
 
-def _offset(given: float | None, program: "Program", scenario: "Scenario") -> tuple[float, str]:
-    """The offset in µm, and what it is for people; a header without one, or with 0, tells nothing.
+def _offset(given: float | None, program: "Program", scenario: "Scenario") -> tuple["CutOffset", str]:
+    """The offset, and what it is for people; a header without one, or with 0, tells nothing.
 
-    Nor does the header where the controller is to add an offset: the program is that of the drawing's contour.
+    Nor does the header where the controller is to add an offset: the program is that of the drawing's contour. That of
+    a header is as it is in the path; the others are of an upright wire.
     """
     from parser.units import mm
+    from sim.run.faces import CutOffset
 
     if given is not None:
-        return given, words()("compare.as-given", offset=f"{mm(given):g}")
+        return CutOffset(given), words()("compare.as-given", offset=f"{mm(given):g}")
     header_um = program.header.get("offset_um")
     if isinstance(header_um, float) and header_um and scenario.offset is None:
-        offset_um = abs(header_um)
-        return offset_um, words()("compare.of-header", offset=f"{mm(offset_um):g}")
-    return scenario.wire.reach_um, words()("compare.of-wire", offset=f"{mm(scenario.wire.reach_um):g}")
+        offset = CutOffset(abs(header_um), in_plane=True)
+        return offset, words()("compare.of-header", offset=f"{mm(offset.by_um):g}")
+    reach_um = scenario.wire.reach_um
+    return CutOffset(reach_um), words()("compare.of-wire", offset=f"{mm(reach_um):g}")

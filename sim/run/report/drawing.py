@@ -148,7 +148,12 @@ class _Head(TypedDict):
 
 
 class CompareDocument(_Head, ComparisonEntry):
-    """The comparison by itself, ``drycut compare --json``; the offset is null of an edge as cut."""
+    """The comparison by itself, ``drycut compare --json``; the offset is null of an edge as cut.
+
+    `top` is that at the top of the work, where a wire leans and a drawing of the top was given.
+    """
+
+    top: ComparisonEntry | None
 
 
 COMPARE: Final = Document(CompareDocument, "docs/compare.md")
@@ -157,8 +162,8 @@ COMPARE: Final = Document(CompareDocument, "docs/compare.md")
 _DEVIATION_UM: Final = attrgetter("deviation_um")
 
 
-def comparison_document(of: Comparison) -> CompareDocument:
-    """The comparison as plain lists, dicts, numbers and None; the order of keys is fixed."""
+def comparison_document(of: Comparison, top: Comparison | None = None) -> CompareDocument:
+    """The comparison as plain lists, dicts, numbers and None, with that at the top; the order of keys is fixed."""
     placement, drawing = of.placement, of.drawing
     blocks, entities = by_block(of), by_entity(of)
     return {
@@ -187,6 +192,7 @@ def comparison_document(of: Comparison) -> CompareDocument:
         "unreachable": [_corner(corner) for corner in corner_places(of)],
         "drawing": {"name": drawing.name, "version": drawing.version, "unit": drawing.unit},
         "notes": [remark_text(note) for note in of.notes],
+        "top": comparison_entry(top),
     }
 
 
@@ -198,9 +204,9 @@ def comparison_entry(of: Comparison | None) -> ComparisonEntry | None:
     return cast("ComparisonEntry", {key: value for key, value in comparison_document(of).items() if key in keys})
 
 
-def document_text(of: Comparison) -> str:
+def document_text(of: Comparison, top: Comparison | None = None) -> str:
     """The document as JSON; the same comparison gives the same bytes."""
-    return json.dumps(comparison_document(of), ensure_ascii=False, allow_nan=False, indent=2) + "\n"
+    return json.dumps(comparison_document(of, top), ensure_ascii=False, allow_nan=False, indent=2) + "\n"
 
 
 def _direction(places: Sequence[WorstPlace], rms_um: float) -> DirectionEntry:
