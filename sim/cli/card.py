@@ -117,8 +117,6 @@ def run(  # noqa: PLR0913 - click hands over each option by its name
     drycut card run ./client -o out/
     drycut card run --card machine.toml --timeout 300 -o out/ ./client part.dat
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
-    from sim.cli.card import ClientOptions, run_client
-
     client = ClientOptions(command, output, library, settings, call_s, longest_s, machine)
     raise click.exceptions.Exit(run_client(client, as_json=as_json))
 

@@ -22,7 +22,6 @@ from parser.files import read_bytes
 from parser.findings.errors import DrawingError, DrycutError
 from parser.program import Program, load_program, suffixes
 from parser.text.encoding import printable
-from parser.write.threeb import with_usual_codes
 from sim.base.progress import Progress, silent
 from sim.check.files import FileFilter, find_files
 from sim.setup.making import ToMake
@@ -71,7 +70,11 @@ def _in_usual_words(scenario: Scenario, data: bytes) -> bytes:
     writing = scenario.to_make.writing
     codes = writing.end_code, writing.pause_code
     end, pause = (None if code is None else code.encode(writing.encoding, "replace") for code in codes)
-    return with_usual_codes(data, end, pause) if end or pause else data
+    if not (end or pause):
+        return data
+    from parser.write.threeb import with_usual_codes  # noqa: PLC0415 - what writes programs takes long to load
+
+    return with_usual_codes(data, end, pause)
 
 
 # Forbidden in names by Windows, with what is no character for people.

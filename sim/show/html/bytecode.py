@@ -1,6 +1,6 @@
 """Bytecode of the templates: compiled once on a machine and read from then on, as Python does with its modules.
 
-A template takes as long to compile as to import a dozen modules: of a run of a small program one sixth. Its bytecode
+A template takes as long to compile as to import a dozen modules: of a run of a small program one tenth. Its bytecode
 stands where Python would put that of a module beside it (``__pycache__``, or ``PYTHONPYCACHEPREFIX``). Bytecode that is
 missing, damaged or of another text, Python or jinja2 counts as none; where it cannot be written, a template is compiled
 in each process.

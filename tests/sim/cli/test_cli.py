@@ -1,5 +1,6 @@
 """The command line as a user meets it, with good and with bad input; in a process of its own where that matters."""
 
+import ast
 import json
 import os
 import subprocess
@@ -13,6 +14,7 @@ from click import Context
 from click.testing import CliRunner
 from command import run_command, run_inside, without_progress
 from places import ROOT, SCENARIOS
+from trees import trees
 
 from drycut import __version__
 from sim.base.workers.maker import sources
@@ -318,3 +320,29 @@ def test_a_scenario_run_by_another_interpolator_is_held_to_all_but_its_steps(tmp
     (tmp_path / "scenario.toml").write_text(f"[expect]\n{expected}", "utf-8")
     own = run_inside("run", tmp_path, "--interpolator", "point-by-point")
     assert (own.returncode, b"[expect]" in own.stderr) == (1, False)
+
+
+@pytest.mark.parametrize("command", [["check"], ["draw", "-o", "path.svg"], ["time"]])
+def test_a_program_of_3b_loads_no_other_language_and_no_writer(tmp_path: Path, command: list[str]) -> None:
+    (tmp_path / "part.3b").write_text("B0B5000B5000GYL2\nB0B5000B5000GYL4\nDD\n", "ascii")
+    script = (
+        "import sys; from sim.cli import cli\n"
+        "others = ('parser.iso.reading', 'parser.iso.listing', 'parser.pmac.reading', 'parser.write')\n"
+        "try: cli.main(sys.argv[1:], standalone_mode=False)\n"
+        "finally: print([name for name in others if name in sys.modules])"
+    )
+    named = [command[0], "part.3b", *command[1:]]
+    line = [sys.executable, "-c", script, *named]
+    done = subprocess.run(line, cwd=tmp_path, capture_output=True, text=True, check=True, timeout=60)
+    assert done.stdout.splitlines()[-1] == "[]"
+
+
+def test_no_module_imports_from_itself() -> None:
+    """What is imported late to start sooner stands in another module: two that were made one start as late as ever."""
+    found = [
+        f"{path}:{node.lineno}"
+        for path, tree in trees().items()
+        for node in ast.walk(tree)
+        if isinstance(node, ast.ImportFrom) and node.module == ".".join(path.with_suffix("").parts)
+    ]
+    assert found == []
