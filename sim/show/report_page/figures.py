@@ -179,9 +179,12 @@ def _pieces(report: ReportDocument) -> Iterator[Figure]:
 
 
 def _drawing(report: ReportDocument) -> Iterator[Figure]:
-    if report["drawing"] is not None:
-        allowed = bilingual("report.allowed", tolerance=f"{report['drawing']['tolerance_um']:g}")
-        yield _figure("off-drawing", report, "drawing.max_um", 2)._replace(unit="µm", note=allowed)
+    top = None if report["taper"] is None else report["taper"]["drawing"]
+    of_faces = (("off-drawing", "drawing", report["drawing"]), ("off-drawing-top", "taper.drawing", top))
+    for name, key, found in of_faces:
+        if found is not None:
+            allowed = bilingual("report.allowed", tolerance=f"{found['tolerance_um']:g}")
+            yield _figure(name, report, f"{key}.max_um", 2)._replace(unit="µm", note=allowed)
 
 
 def _offset(report: ReportDocument) -> Iterator[Figure]:

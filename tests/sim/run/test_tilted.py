@@ -22,6 +22,7 @@ from sim.setup.scenario import Scenario, load_scenario
 from sim.setup.shop import Shop
 from sim.setup.taper import TaperSettings, UpperProgram, heights_of
 from sim.setup.wire import DEFAULT_WIRE
+from sim.show.report_page.figures import key_figures
 
 PUNCH = b"""B0B5000B5000GYL2
 B10000B0B10000GXL1
@@ -324,6 +325,8 @@ def test_the_edge_at_the_top_is_held_against_a_drawing_of_its_own(
     assert entry["drawing"]["max_um"] == pytest.approx((2.0**0.5 if grown_um else 1.0) * 20.0 * off, abs=3.5)
     assert done.comparison is not None
     assert done.comparison.max_um < 3.0
+    shown = {figure.entry: figure.value for figure in key_figures(done, build_report(done))}
+    assert shown["taper.drawing.max_um"] == entry["drawing"]["max_um"]
 
 
 def test_a_drawing_of_the_top_of_an_upright_cut_is_refused(run: Run, tmp_path: Path) -> None:
