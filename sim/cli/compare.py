@@ -124,8 +124,8 @@ def _compared(
     """The edge beside its drawing, at the top too; a program that cannot run is refused."""
     from parser.findings.errors import ProgramError
     from sim.cli.scenario_options import refused
+    from sim.run.drawings import drawings_of
     from sim.run.faces import compared_faces
-    from sim.run.running import drawings_of
 
     plane, top = drawings_of(target)
     assert plane is not None  # noqa: S101 - there is a target

@@ -28,6 +28,8 @@ from sim.table.trace import Trace
 
 _SHARES: Final = (0.0, 0.25, 0.5, 0.75, 1.0)
 """Heights at which a cut is looked at, as shares of the work; the program plane comes to them."""
+_OF_VOLUME: Final = (0.0, 0.5, 1.0)
+"""Heights that Simpson's rule asks for."""
 _ALIKE: Final = 1e-6
 _MM3_PER_UM3: Final = 1e-9
 
@@ -148,13 +150,17 @@ def tilted_cut(program: Program, axes: FourAxes, scenario: Scenario, wire: WireR
     moved = _Moved(program, axes, share, across, path.across_rad(), wire)
     sections = tuple(_section(moved, z_um, scenario if kerf else None) for z_um in heights)
     volume = sum(abs(path.ruled.volume_um3(loop, 0.0, work_um)) for loop in path.loops) * _MM3_PER_UM3
-    return TiltedCut(axes, sections, volume, _solids(sections, work_um, scenario))
+    pieces = {section.z_um: section.pieces for section in sections}
+    is_alike = len({None if found is None else len(found.freed) for found in pieces.values()}) == 1
+    through = [pieces[share * work_um] for share in _OF_VOLUME] if is_alike else [None]
+    return TiltedCut(axes, sections, volume, _solids(through, work_um, scenario))
 
 
-def with_pieces(cut: TiltedCut, program: Program, scenario: Scenario) -> TiltedCut:
-    """The same cut of a program with the pieces of all sections, where nobody had asked for them."""
-    sections = tuple(replace(each, pieces=_pieces(program, each, scenario)) for each in cut.sections)
-    return replace(cut, sections=sections, solids=_solids(sections, cut.path.heights.work_um, scenario))
+def solids_of(cut: TiltedCut, program: Program, scenario: Scenario) -> tuple[Solid, ...]:
+    """The pieces of a cut of a program as solids, where nobody had asked for those of its sections."""
+    work_um = cut.path.heights.work_um
+    at = {section.z_um: section for section in cut.sections}
+    return _solids([_pieces(program, at[share * work_um], scenario) for share in _OF_VOLUME], work_um, scenario)
 
 
 def weighed(pieces: Pieces, solids: Sequence[Solid]) -> Pieces:
@@ -230,14 +236,12 @@ def _pieces(program: Program, section: Section, scenario: Scenario) -> Pieces | 
         return None
 
 
-def _solids(sections: tuple[Section, ...], work_um: float, scenario: Scenario) -> tuple[Solid, ...]:
-    """The pieces of the sections at bottom, middle and top as solids, where all heights have as many."""
-    known = [section.pieces.freed for section in sections if section.pieces is not None]
-    if len(known) < len(sections) or len({len(freed) for freed in known}) != 1:
+def _solids(through: Sequence[Pieces | None], work_um: float, scenario: Scenario) -> tuple[Solid, ...]:
+    """The pieces at bottom, middle and top as solids, where all of them have as many."""
+    known = [pieces.freed for pieces in through if pieces is not None]
+    if len(known) < len(through) or len({len(freed) for freed in known}) != 1:
         return ()
-    by_height = {section.z_um: freed for section, freed in zip(sections, known, strict=True)}
-    through = [by_height[share * work_um] for share in (0.0, 0.5, 1.0)]
-    return tuple(_solid(pieces, mm(work_um), scenario) for pieces in zip(*through, strict=True))
+    return tuple(_solid(pieces, mm(work_um), scenario) for pieces in zip(*known, strict=True))
 
 
 def _solid(pieces: tuple[Piece, ...], height_mm: float, scenario: Scenario) -> Solid:

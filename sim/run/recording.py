@@ -20,7 +20,7 @@ from sim.base.progress import Progress, silent
 from sim.cut.pieces.pieces import Frame, Pieces
 from sim.cut.regions import RegionError
 from sim.cut.remains import pieces_left
-from sim.cut.solids import weighed, with_pieces
+from sim.cut.solids import solids_of, weighed
 from sim.run.dryrun import DryRun
 from sim.run.findings import expectation_findings
 from sim.run.report import build_report
@@ -114,7 +114,7 @@ def pieces_of_run(run: DryRun) -> Pieces:
         return NO_PIECES
     if run.tilted is None:
         return pieces
-    return weighed(pieces, with_pieces(run.tilted, run.program, run.scenario).solids)
+    return weighed(pieces, solids_of(run.tilted, run.program, run.scenario))
 
 
 def _passes(run: DryRun) -> float:

@@ -14,7 +14,6 @@ import numpy as np
 from controller.card.log import CardLog
 from controller.motion.limits import Feeds
 from controller.stepping.pulses import Pulses
-from parser.drawing.model import Drawing
 from parser.findings.errors import SettingsError
 from parser.findings.findings import Finding, WithoutOffset, telling
 from parser.geometry.curves import Floats
@@ -26,7 +25,7 @@ from sim.check.result import CheckState
 from sim.cut.findings import missed_work_findings, obstacle_findings, piece_findings, region_finding
 from sim.cut.regions import RegionError
 from sim.cut.remains import Remains, remains_of
-from sim.cut.solids import Solid, weighed
+from sim.cut.solids import TiltedCut, weighed
 from sim.cut.wire_lag import bowed
 from sim.cut.wire_rows import WireRows, wire_rows
 from sim.measure.causes import Meters
@@ -34,11 +33,11 @@ from sim.measure.compare.findings import compare_cut, drawing_findings, top_find
 from sim.measure.compare.result import Comparison
 from sim.measure.kerf_fit import offset_findings, tolerance_findings
 from sim.measure.passes import PassFigures, figures_of_passes, wire_taken
+from sim.run.drawings import NO_DRAWINGS, Drawings, drawings_of
 from sim.run.dryrun import DryRun, Ending, PulseSink, motion_to_end, trip_of
 from sim.run.prepare import Prepared, in_file_order, prepare, tilt_findings
 from sim.run.sparks import check_states, cut_under_sparks, stop_findings, work_of
 from sim.run.tilt import asks_for_pieces, compared_at_top, cut_tilted, lost_findings, with_tilt
-from sim.setup.part import DrawingTarget
 from sim.setup.scenario import Scenario
 from sim.table.losses import loss_findings
 from sim.table.motion import Motion, Moved, TableRun, driven
@@ -47,80 +46,74 @@ from sim.table.trace import Trace
 _REMAINS: Final = "check-remains"  # the check of what a cut leaves, which only a run makes
 
 
-class Drawings(NamedTuple):
-    """What a cut is held against: drawings of the part at the program plane, and at the top; None without one."""
-
-    plane: Drawing | None = None
-    top: Drawing | None = None
-
-
-_NO_DRAWINGS: Final = Drawings()
-
-
 class CutResult(NamedTuple):
-    """What a cut leaves, beside the drawing; None where nobody asked, or where no region could be worked out.
+    """What a cut leaves, beside its drawings; None where nobody asked, or where no region could be worked out.
 
-    `findings` are those about it, and `state` says how far the check of it came.
+    `top` is the edge at the top of the work, where the wire leans. `findings` are those about all of it, and `state`
+    says how far the check of it came.
     """
 
     remains: Remains | None
     comparison: Comparison | None
+    top: Comparison | None
     findings: list[Finding]
     state: CheckState
 
 
-def drawing_of(target: DrawingTarget | None) -> Drawing | None:
-    """A drawing that a cut is held against, None where there is none; DrawingError where it cannot be read."""
-    if target is None:
-        return None
-    from parser.drawing.read import read_drawing  # noqa: PLC0415 - most runs have no drawing, and ezdxf loads for 0.3 s
+class WireCut(NamedTuple):
+    """A cut.
 
-    return read_drawing(target.file, layer=target.layer, gap_um=target.gap_um, unit=target.unit)
+    Attributes
+    ----------
+    program
+        What was cut.
+    trace
+        Where the wire was, until the run ended.
+    contours
+        Of the program.
+    reach_um
+        (n,) half the width of the kerf in each row.
+    tilted
+        What came of a wire that leans; None of an upright one.
+    is_whole
+        Whether the run came to the end of its program.
+    """
+
+    program: Program
+    trace: Trace
+    contours: tuple[Contour, ...]
+    reach_um: Floats
+    tilted: TiltedCut | None
+    is_whole: bool
 
 
-def drawings_of(target: DrawingTarget | None) -> Drawings:
-    """The drawings that a cut is held against. DrawingError where one cannot be read."""
-    return Drawings(drawing_of(target), drawing_of(target and target.of_top))
-
-
-def left_of(  # noqa: PLR0913, PLR0917 - all that is known of the cut, and whom it tells
-    program: Program,
-    cut: Trace,
-    contours: tuple[Contour, ...],
-    scenario: Scenario,
-    drawing: Drawing | None,
-    reach_um: Floats,
-    progress: Progress,
-    *,
-    is_whole: bool,
-    measured: bool,
-    solids: Sequence[Solid] = (),
-) -> CutResult:
+def left_of(cut: WireCut, scenario: Scenario, drawings: Drawings, progress: Progress, *, measured: bool) -> CutResult:
     """What a cut leaves, as far as the scenario asks for it; `measured`, with all its sizes and plays.
-
-    `reach_um` (n,) is half the width of the kerf in each row, `solids` are the pieces of a wire that leans.
 
     A run that is not whole, since it ended early, is not held against the drawing: all that differs comes of that.
     """
-    target = scenario.drawing
+    program, target = cut.program, scenario.drawing
     if not asks_for_pieces(scenario):
-        return CutResult(None, None, [], CheckState(_REMAINS, "not asked", "reason-no-kerf"))
+        return CutResult(None, None, None, [], CheckState(_REMAINS, "not asked", "reason-no-kerf"))
     progress("kerf", 0, 1)
     try:
-        remains = remains_of(program, cut, contours, scenario, reach_um)
+        remains = remains_of(program, cut.trace, cut.contours, scenario, cut.reach_um)
+        solids = () if cut.tilted is None else cut.tilted.solids
         remains = replace(remains, pieces=weighed(remains.pieces, solids))
         remains = remains.measured() if measured else remains
     except RegionError as error:
         state = CheckState(_REMAINS, "incomplete", "reason-no-region")
-        return CutResult(None, None, [region_finding(program, error)], state)
+        return CutResult(None, None, None, [region_finding(program, error)], state)
     found = piece_findings(program, remains.pieces)
-    if target is None or drawing is None:
-        return CutResult(remains, None, found, CheckState(_REMAINS))
-    if not is_whole:
-        return CutResult(remains, None, found, CheckState(_REMAINS, "incomplete", "reason-ended"))
+    if target is None or drawings.plane is None:
+        return CutResult(remains, None, None, found, CheckState(_REMAINS))
+    if not cut.is_whole:
+        return CutResult(remains, None, None, found, CheckState(_REMAINS, "incomplete", "reason-ended"))
     progress("comparison", 0, 1)
-    comparison = compare_cut(program, remains, drawing, target)
-    return CutResult(remains, comparison, [*found, *drawing_findings(program, comparison)], CheckState(_REMAINS))
+    comparison = compare_cut(program, remains, drawings.plane, target)
+    top = compared_at_top(program, cut.tilted, scenario, drawings.top, comparison)
+    found += [*drawing_findings(program, comparison), *top_findings(program, top)]
+    return CutResult(remains, comparison, top, found, CheckState(_REMAINS))
 
 
 class Along(NamedTuple):
@@ -168,7 +161,7 @@ def dry_run(  # noqa: PLR0913 - whom it tells
 def run_along(
     along: Along,
     scenario: Scenario,
-    drawings: Drawings = _NO_DRAWINGS,
+    drawings: Drawings = NO_DRAWINGS,
     progress: Progress = silent,
     sink: PulseSink | None = None,
 ) -> DryRun:
@@ -192,20 +185,8 @@ def run_along(
     tilted = cut_tilted(ready, scenario, wire._replace(reach_um=reach_um))
     if ready.tilt is not None:
         reach_um = reach_um / np.cos(ready.tilt.wall_rad(len(toolpath)))
-    is_whole = ended is None
-    left = left_of(
-        program,
-        cut,
-        contours,
-        scenario,
-        drawings.plane,
-        reach_um,
-        progress,
-        is_whole=is_whole,
-        measured=measured,
-        solids=() if tilted is None else tilted.solids,
-    )
-    top = compared_at_top(program, tilted, scenario, drawings.top, left.comparison)
+    wire_cut = WireCut(program, cut, contours, reach_um, tilted, is_whole=ended is None)
+    left = left_of(wire_cut, scenario, drawings, progress, measured=measured)
     found = [
         *_met(program, scenario, moved, trace, contours),
         *left.findings,
@@ -213,7 +194,6 @@ def run_along(
         *stop_findings(program, process),
         *tilt_findings(ready, scenario),
         *lost_findings(program, tilted, scenario),
-        *top_findings(program, top),
     ]
     states = with_tilt((*ready.coverage.checks, left.state, *check_states(process)), tilted, scenario)
     return DryRun(
@@ -238,7 +218,7 @@ def run_along(
         reach_um=reach_um,
         remains=left.remains,
         comparison=left.comparison,
-        top=top,
+        top=left.top,
         findings=in_file_order(ready, found),
         checked=ready.findings,
         coverage=ready.coverage._replace(checks=states),

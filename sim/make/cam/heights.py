@@ -50,10 +50,7 @@ def walls_off(cut: TiltedCut, plan: CutPlan, target: Target) -> Iterator[WallOff
 
 def wall_faults(walls: Sequence[WallOff], bound_um: float) -> Iterator[Fault]:
     """The worst height of each figure whose walls lie farther off than a bound."""
-    worst: dict[int, WallOff] = {}
-    for wall in walls:
-        if wall.off_um > worst.get(wall.figure, wall).off_um or wall.figure not in worst:
-            worst[wall.figure] = wall
+    worst = {wall.figure: wall for wall in sorted(walls, key=lambda wall: wall.off_um)}  # the farthest is entered last
     for wall in worst.values():
         if wall.off_um == np.inf:
             yield Fault("no-wall", {"z_mm": mm(wall.z_um)}, None, wall.figure)
