@@ -105,7 +105,7 @@ def _written(made: "MadeProgram", request: _ProgramRequest, tongue: "Tongue", *,
 
 def _program_request(path: Path, output: Path | None, options: Options, *, is_written: bool) -> _ProgramRequest:
     """What is to be made. UsageError where it is not said which drawing, or where to."""
-    from sim.make.cam.maker import drawing_to_cut
+    from sim.make.cam.of_scenario import drawing_to_cut
     from sim.setup.making import ToMake, of_drawing, refuse_misfits
 
     scenario = _scenario(path, output, options)
@@ -175,7 +175,8 @@ def _made_program(request: _ProgramRequest) -> "MadeProgram | NotMade":
     from dataclasses import replace
 
     from sim.cli.progress import StageProgress
-    from sim.make.cam.maker import made_program, wanted_of
+    from sim.make.cam.maker import made_program
+    from sim.make.cam.of_scenario import wanted_of
     from sim.run.recording import stages_of
 
     wanted = wanted_of(request.to_make, request.language, request.scenario)
@@ -186,7 +187,8 @@ def _made_program(request: _ProgramRequest) -> "MadeProgram | NotMade":
 
 def _with_findings(done: "MadeProgram", request: _ProgramRequest, tongue: "Tongue") -> bytes:
     """The program with what speaks against it at its head."""
-    from sim.make.cam.maker import remarked, wanted_of
+    from sim.make.cam.maker import remarked
+    from sim.make.cam.of_scenario import wanted_of
     from sim.show.terminal.program import against
 
     wanted = wanted_of(request.to_make, request.language, request.scenario)

@@ -48,7 +48,8 @@ def source_of(scenario: Scenario, progress: Progress = silent) -> Source:
 
 def _made_bytes(scenario: Scenario, to_make: ToMake, progress: Progress) -> bytes:
     # Few programs are made, and what makes them takes long to load.
-    from sim.make.cam.maker import NotMade, program_of  # noqa: PLC0415
+    from sim.make.cam.maker import NotMade  # noqa: PLC0415
+    from sim.make.cam.of_scenario import program_of  # noqa: PLC0415
     from sim.show.refusals import why_refused  # noqa: PLC0415
 
     done = program_of(scenario, to_make, progress)

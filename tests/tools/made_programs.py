@@ -16,7 +16,7 @@ from sim.make.cam.compensated_draft import draft_of_plan
 from sim.make.cam.model import CutPlan, FigureCut
 from sim.make.cam.planned import PlanRequest, planned
 from sim.make.cam.proof import ToProve, proved
-from sim.make.cam.target import Proof
+from sim.make.cam.proof_model import Proof
 from sim.make.cam.visits import visited
 from sim.make.conversion_proof import proof as held_against
 from sim.make.wanted import Wanted, read_with, written

@@ -42,7 +42,7 @@ from sim.make.cam.document_model import (
 )
 from sim.make.cam.maker import MadeProgram, NotMade
 from sim.make.cam.model import CutPlan, Figure, FigureCut, PassCut, Refusal
-from sim.make.cam.target import Fault, Proof
+from sim.make.cam.proof_model import Fault, Proof
 from sim.make.cam.visits import Spans, figure_rows
 from sim.run.dryrun import DryRun
 from sim.setup.wire import Wire

@@ -19,7 +19,8 @@ from sim.cut.pieces.kept_edges import kept_shapes
 from sim.cut.solids import Section, TiltedCut
 from sim.make.cam.leaning import grows_upwards
 from sim.make.cam.model import CutPlan
-from sim.make.cam.target import Fault, Target, WallOff
+from sim.make.cam.proof_model import Fault, WallOff
+from sim.make.cam.target import Target
 from sim.setup.taper import TaperSettings
 
 _PLACES_UM: Final = 100.0

@@ -1,12 +1,8 @@
-"""A drawing to a proved program: `made_program`, the one way in, and what is asked of its text.
+"""A drawing to a proved program: `made_program`, the one way in.
 
 How near arcs are fitted to what is drawn, so that the written path keeps its tolerance with few of them.
 
 A made program with remarks in its header: what speaks against one that is written all the same.
-
-What is asked of the text of a program, as its writers take it.
-
-The program that a scenario asks for, made of its drawing.
 """
 
 from collections.abc import Sequence
@@ -16,7 +12,6 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from parser.dialect.reader import OwnDialect
 from parser.drawing.model import DEFAULT_FLATTEN_UM, Drawing
 from parser.drawing.read import read_drawing
 from parser.findings.catalogue import Remark
@@ -25,7 +20,6 @@ from parser.program import Program, load_program
 from parser.text.encoding import printable
 from parser.toolpath import Toolpath
 from parser.write.draft import Draft, Written
-from parser.write.iso import IsoChoices, iso_choices
 from sim.base.progress import Progress, silent
 from sim.make.cam.compensated_draft import added_draft, draft_of_cuts, draft_of_plan, kept_draft
 from sim.make.cam.leaning import angle_words, in_plane, lean_notes, lean_of, leaning, refuse_upright_ways
@@ -33,7 +27,9 @@ from sim.make.cam.model import CannotCutError, CutPlan, Refusal
 from sim.make.cam.passes import figure_cut
 from sim.make.cam.planned import PlanRequest, as_cut, planned
 from sim.make.cam.proof import ToProve, proved
-from sim.make.cam.target import Proof, least_um, target_of
+from sim.make.cam.proof_model import Proof
+from sim.make.cam.proof_run import least_um
+from sim.make.cam.target import target_of
 from sim.make.conversion_proof import Proof as HeldAgainst
 from sim.make.conversion_proof import proof as held_against
 from sim.make.wanted import (
@@ -45,8 +41,7 @@ from sim.make.wanted import (
 )
 from sim.measure.compare.compare import compare_program
 from sim.measure.compare.result import FitRequest
-from sim.setup.making import Language, Making, ToMake, Writing
-from sim.setup.part import DrawingTarget
+from sim.setup.making import Making
 from sim.setup.scenario import Scenario
 
 _STEP = 0.03  # of the tolerance, by which each fit is nearer than the one before it
@@ -350,58 +345,3 @@ def _remark(text: str, *, is_iso: bool) -> str:
     plain = printable(" ".join(text.split())).replace("µ", "u").replace("=", " ").replace(";", ",")
     plain = f"not proved: {plain}"[:_LONGEST]
     return "(" + plain.replace("(", "[").replace(")", "]") + ")" if is_iso else f"// {plain}"
-
-
-_USUAL_DIALECT = "fast-wire"
-
-
-def wanted_of(to_make: ToMake, language: Language, scenario: Scenario) -> Wanted:
-    """How a program is to be written for the machine of a scenario, whose dialect and unit ISO has.
-
-    SettingsError where the dialect has no such numbers.
-    """
-    writing = to_make.writing
-    return Wanted(
-        language=language,
-        iso=_iso(writing, scenario) if language == "iso" else None,
-        form=writing.form,
-        keeps=writing.compensation == "kept",
-        newline="\r\n" if writing.crlf else "\n",
-        name=to_make.file.stem,
-        offset_um=_offset_um(leaning(to_make.making, scenario, says_angle=language == "iso"), in_plane(scenario)),
-        end_code=writing.end_code,
-        pause_code=writing.pause_code,
-        encoding=writing.encoding,
-    )
-
-
-def _offset_um(making: Making, scenario: Scenario) -> float | None:
-    """The offset that makes the edge, for headers; None where it is not one for all, or the controller's."""
-    if any(wish.passes_um for wish in making.layers):
-        return None
-    return min(making.passes_um or (scenario.wire.reach_um,)) or None
-
-
-def _iso(writing: Writing, scenario: Scenario) -> IsoChoices:
-    if isinstance(scenario.dialect, OwnDialect):
-        raise SettingsError("own-dialect-not-written", name=scenario.dialect.name)
-    unit = scenario.unit or None
-    return iso_choices(scenario.dialect or _USUAL_DIALECT, unit, writing.decimals)  # type: ignore[arg-type]  # checked
-
-
-def program_of(scenario: Scenario, to_make: ToMake, progress: Progress = silent) -> MadeProgram | NotMade:
-    """The program of a scenario's drawing, without a proof: the run that it is made for is one.
-
-    Raises FileUnreadableError and DrawingError where there is no drawing, SettingsError where it cannot be written as
-    it is asked for.
-    """
-    drawing = drawing_to_cut(scenario)
-    wanted = wanted_of(to_make, to_make.language, scenario)
-    return unproved(drawing.file, to_make.making, wanted, scenario, progress)
-
-
-def drawing_to_cut(scenario: Scenario) -> DrawingTarget:
-    """The drawing of a scenario. SettingsError where it has none."""
-    if scenario.drawing is None:
-        raise SettingsError("scenario-without-drawing", title=scenario.title)
-    return scenario.drawing

@@ -25,7 +25,9 @@ from sim.base.progress import Progress, silent
 from sim.cut.pieces.pieces import Piece, Pieces
 from sim.make.cam.heights import wall_faults, walls_off
 from sim.make.cam.model import CutPlan, FigureCut, NotProved, with_sides
-from sim.make.cam.target import AsRun, Faces, Fault, Proof, Target, as_run, target_of
+from sim.make.cam.proof_model import Faces, Fault, Proof
+from sim.make.cam.proof_run import AsRun, as_run
+from sim.make.cam.target import Target, target_of
 from sim.make.cam.visits import figure_rows
 from sim.make.conversion_proof import Proof as Written
 from sim.measure.compare.compare import compare_program

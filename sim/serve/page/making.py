@@ -9,7 +9,7 @@ from parser.findings.errors import Message, SettingsError
 from parser.text.encoding import narrow
 from parser.toolpath import Point
 from parser.units import from_mm, mm
-from sim.make.cam.maker import wanted_of
+from sim.make.cam.of_scenario import wanted_of
 from sim.make.wanted import Wanted
 from sim.serve.page.child import PageRequest
 from sim.serve.page.form import number_of, offsets_um, scenario_of

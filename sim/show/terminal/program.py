@@ -20,7 +20,7 @@ from sim.base.units import hours_text
 from sim.make.cam.document import FigureSum, figure_sums
 from sim.make.cam.maker import MadeProgram, NotMade
 from sim.make.cam.model import CutPlan, FigureCut
-from sim.make.cam.target import Proof
+from sim.make.cam.proof_model import Proof
 from sim.show.refusals import place_text, places_said, why_refused
 from sim.show.terminal.finding import finding_lines
 from sim.show.terminal.layout import show, table

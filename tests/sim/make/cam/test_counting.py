@@ -4,7 +4,7 @@ from types import MappingProxyType
 from typing import Any, cast
 
 from parser.findings.findings import Finding, TightCorner
-from sim.make.cam.target import Proof
+from sim.make.cam.proof_model import Proof
 from sim.measure.compare.result import Comparison
 from sim.setup.wire import DEFAULT_WIRE
 

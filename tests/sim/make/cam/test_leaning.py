@@ -12,7 +12,8 @@ from runs import plain_scenario
 
 from parser.write.iso import iso_choices
 from sim.make.cam.heights import wall_faults, walls_off
-from sim.make.cam.maker import MadeProgram, NotMade, made_program, wanted_of
+from sim.make.cam.maker import MadeProgram, NotMade, made_program
+from sim.make.cam.of_scenario import wanted_of
 from sim.make.cam.target import target_of
 from sim.make.wanted import Wanted
 from sim.setup.making import Making, ToMake, Writing

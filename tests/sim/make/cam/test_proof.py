@@ -14,7 +14,7 @@ from parser.toolpath import Point
 from parser.write.iso import iso_choices
 from sim.make.cam.model import CutPlan, FigureCut
 from sim.make.cam.passes import figure_cut
-from sim.make.cam.target import Proof
+from sim.make.cam.proof_model import Proof
 from sim.make.wanted import Wanted
 from sim.setup.making import Making
 
