@@ -12,14 +12,16 @@ from runs import plain_scenario
 
 from parser.write.iso import iso_choices
 from sim.make.cam.heights import wall_faults, walls_off
-from sim.make.cam.maker import MadeProgram, NotMade, made_program
+from sim.make.cam.maker import MadeProgram, NotMade, made_program, unproved
 from sim.make.cam.of_scenario import wanted_of
+from sim.make.cam.proof_run import as_run
 from sim.make.cam.target import target_of
 from sim.make.wanted import Wanted
 from sim.setup.making import Making, ToMake, Writing
 from sim.setup.part import SIDES
 from sim.setup.scenario import Scenario
 from sim.setup.taper import TaperSettings
+from sim.setup.technology import Cut, Technology
 
 ISO, SKD, TO_3B, TO_4B = (
     Wanted("iso", iso_choices("fast-wire")),
@@ -186,3 +188,14 @@ def test_random_convex_parts_are_proved(tmp_path: Path, seed: int) -> None:
     assert [fault.name for fault in done.proof.faults] == []
     assert [finding.code for finding in done.proof.counting] == []
     assert max(wall.off_um for wall in done.proof.walls) < OFF_UM
+
+
+@pytest.mark.parametrize(("offset_um", "fits"), [(100.0, True), (125.0, False)])
+def test_the_gap_of_a_technology_is_that_of_an_upright_wire(plate: Path, offset_um: float, fits: bool) -> None:
+    """At 20° an offset of 100 µm is 106.4 µm in the program plane: a gap of 10 µm fits it all the same."""
+    row = Cut("steel", 180.0, 40.0, 1, 10.0, None, 2.0, None, None, None, None, None, None, None, None)
+    scenario = replace(leaning(20.0), thickness_mm=40.0, technology=Technology("test", "measured", "here", (row,)))
+    done = unproved(plate, Making(passes_um=(offset_um,)), ISO, scenario)
+    assert isinstance(done, MadeProgram)
+    names = [note.name for note in as_run(scenario, done.plan, done.program.toolpath).notes]
+    assert ("technology" not in names) is fits
