@@ -654,8 +654,10 @@ def test_a_machine_file_that_is_dropped_is_chosen_and_checked_by(browsers: Brows
         assert shown.text() == file.read_text(), "and the program"
 
 
-def test_a_wire_that_leans_is_set_in_the_form(browsers: Browsers, keyhole: OpenedPage) -> None:
-    with tab(browsers, keyhole.address) as shown:
+def test_a_wire_that_leans_is_set_in_the_form(browsers: Browsers, empty: OpenedPage) -> None:
+    square = "B0B2000B2000GYL2\nB4000B0B4000GXL1\nB0B4000B4000GYL2\nB4000B0B4000GXL3\nB0B4000B4000GYL4\nDD\n"
+    with tab(browsers, empty.address) as shown:
+        shown.page.fill("#text", square)
         shown.waits_for("pass")
         shown.page.click("#tab-run")
         shown.page.fill("input[name=taper_deg]", "61")
