@@ -279,7 +279,7 @@ def _rows_between(source: Ints, first: int, last: int) -> Ints:
 
 def _at_faces(ruled: Ruled, work_um: float) -> tuple[Ruled, Ints]:
     """The same surface from the bottom to the top of the work, and the row (k,) that each of its rows belongs to."""
-    (lower, row), (upper, _) = (ruled.section(z_um) for z_um in (0.0, work_um))
+    (lower, upper), row = ruled.sections((0.0, work_um))
     return Ruled(lower, upper, 0.0, work_um), row
 
 

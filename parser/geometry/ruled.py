@@ -5,8 +5,9 @@ t of the lower one is done, the wire leads from there to share t of the upper on
 ``P(t) = L(t) + (U(t) − L(t)) (z − z_lower) / (z_upper − z_lower)``.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 
@@ -94,29 +95,46 @@ class Ruled:
         Lines between lines are lines, and arcs about one centre by one angle are arcs about it; all else is cut into
         chords.
         """
+        (curves,), row = self.sections((z_um,))
+        return curves, row
+
+    def sections(self, heights_um: Sequence[float]) -> tuple[tuple[Curves, ...], Ints]:
+        """The curves at several heights, as `section` has them, all with the same rows (k,) of this surface."""
         lower, upper = self.lower, self.upper
-        share = (z_um - self.lower_z_um) / self.height_um
         alike = lower.is_arc & upper.is_arc & (np.abs(lower.sweep_rad - upper.sweep_rad) < _SAME_RAD)
         alike &= np.abs(lower.start_angle_rad - upper.start_angle_rad) < _SAME_RAD
         one_stands = (lower.is_arc != upper.is_arc) & (np.minimum(lower.length_um, upper.length_um) == 0.0)
-        row, number, count = self._chords((lower.is_arc | upper.is_arc) & ~alike & ~one_stands)
-        start, end = (self.places(row, (number + by) / count[row], z_um) for by in (0, 1))
+        chords = self._chords((lower.is_arc | upper.is_arc) & ~alike & ~one_stands, heights_um)
         sweep = np.where(alike | one_stands, np.where(lower.is_arc, lower.sweep_rad, upper.sweep_rad), 0.0)
-        low, high = (np.where(of.is_arc[:, None], of.center_um, of.start_um) for of in (lower, upper))
+        return tuple(self._curves(chords, sweep, z_um) for z_um in heights_um), chords.row
+
+    def _curves(self, chords: "_Chords", sweep_rad: Floats, z_um: float) -> Curves:
+        """The curves of chords at a height; rows that turn by `sweep_rad` (n,) are arcs there."""
+        row, since, until = chords
+        share = self._share(z_um)
+        start, end = self.places(row, since, z_um), self.places(row, until, z_um)
+        low, high = (np.where(of.is_arc[:, None], of.center_um, of.start_um) for of in (self.lower, self.upper))
         center = (low + share * (high - low))[row]
         stands = np.hypot(*(start - center).T) < _NOTHING_UM
-        made = curves_between(start, end, center, np.where(stands, 0.0, sweep[row]))
+        made = curves_between(start, end, center, np.where(stands, 0.0, sweep_rad[row]))
         made.kind[self.is_jump[row]] = CurveKind.JUMP
-        return made, row
+        return made
 
-    def _chords(self, bent: Bools) -> tuple[Ints, Ints, Ints]:
-        """Chords for rows that are bent, one for each of the others: row and number (k,) of each, and counts (n,)."""
-        reach = np.maximum(np.nan_to_num(self.lower.radius_um), np.nan_to_num(self.upper.radius_um))
-        # A chord c leaves a circle of radius R by c² / 8 R.
-        chord = np.sqrt(8.0 * np.maximum(reach, 1.0) * _SAGITTA_UM)
-        count = np.where(bent, np.ceil(self.length_um / chord), 1.0).astype(np.int64)
+    def _chords(self, bent: Bools, heights_um: Sequence[float]) -> "_Chords":
+        """Chords for rows that are bent, one for each of the others, near enough at both contours and some heights."""
+        # A place moves by P(t) = (1 - w) L(t) + w U(t), and an arc of radius R that turns by s has |L''| = R s². A
+        # chord over a share c of the row leaves the row by |P''| c² / 8.
+        bends = [np.nan_to_num(of.radius_um) * of.sweep_rad**2 for of in (self.lower, self.upper)]
+        shares = [0.0, 1.0, *map(self._share, heights_um)]
+        bend = np.maximum.reduce([abs(1.0 - share) * bends[0] + abs(share) * bends[1] for share in shares])
+        count = np.where(bent, np.maximum(np.ceil(np.sqrt(bend / (8.0 * _SAGITTA_UM))), 1.0), 1.0).astype(np.int64)
         row = np.repeat(np.arange(len(self)), count)
-        return row, np.arange(len(row)) - np.repeat(np.cumsum(count) - count, count), count
+        number = np.arange(len(row)) - np.repeat(np.cumsum(count) - count, count)
+        return _Chords(row, number / count[row], (number + 1) / count[row])
+
+    def _share(self, z_um: float) -> float:
+        """A height as a share of the way from the lower contour to the upper one."""
+        return (z_um - self.lower_z_um) / self.height_um
 
     def area_um2(self, rows: Ints, z_um: float) -> float:
         """Signed area within the closed section that rows (k,) make at a height, positive counter-clockwise.
@@ -127,7 +145,7 @@ class Ruled:
         share, weight = 0.5 * (node + 1.0), 0.5 * weight
         row = np.repeat(rows, _NODES)
         at = np.tile(share, len(rows))
-        w = (z_um - self.lower_z_um) / self.height_um
+        w = self._share(z_um)
         place = self.places(row, at, z_um)
         place -= place[:1]
         way = (1.0 - w) * _rates(self.lower, row, at) + w * _rates(self.upper, row, at)
@@ -141,6 +159,14 @@ class Ruled:
         """
         low, middle, high = (self.area_um2(rows, z) for z in (low_um, 0.5 * (low_um + high_um), high_um))
         return (high_um - low_um) * (low + 4.0 * middle + high) / 6.0
+
+
+class _Chords(NamedTuple):
+    """Row (k,) of each chord, and the shares (k,) of the row from which and to which it leads."""
+
+    row: Ints
+    since: Floats
+    until: Floats
 
 
 def _rates(curves: Curves, row: Ints, share: Floats) -> Floats:

@@ -72,8 +72,12 @@ def test_an_inside_fillet_turns_over_at_its_radius_over_the_tangent() -> None:
     assert outward.turned == ()
 
 
+# Of two partners the shorter contour had the larger radius, and chords were as long as that one allows: 0.15 µm off.
+SMALL_UNDER_LARGE = (502, 893)
+
+
 @pytest.mark.deep
-@pytest.mark.parametrize("seed", cases(10, 1000))
+@pytest.mark.parametrize("seed", sorted({*cases(10, 1000), *SMALL_UNDER_LARGE}))
 @pytest.mark.parametrize("planes_mm", [(0.0, 40.0), (5.0, 30.0)])
 def test_sections_are_those_of_an_independent_ruled_surface(seed: int, planes_mm: tuple[float, float]) -> None:
     toolpath, upper, walk = random_pair(seed)
