@@ -13,6 +13,7 @@ from parser.dialect.reader import STANDARD_CHOICES, Choices, HeaderValue, Marks,
 from parser.files import PROGRAMS, kind_of, read_bytes
 from parser.findings.errors import ProgramError
 from parser.findings.findings import Finding, Value
+from parser.geometry.curves import Curves
 from parser.iso.dialect import ISO
 from parser.iso.profiles.profile import PROFILES
 from parser.iso.profiles.profile import own_dialect as own_dialect  # noqa: PLC0414 - handed on
@@ -87,11 +88,22 @@ def paired(program: Program, upper: Program) -> Program:
     differs = np.flatnonzero(low.is_jump[:n] != high.is_jump[:n])
     if len(low) != len(high) or len(differs):
         row = int(differs[0]) if len(differs) else n - 1
-        values: dict[str, Value] = {"lower": len(low), "upper": len(high), "name": upper.name}
+        values: dict[str, Value] = {"lower": len(low), "upper": len(high)}
         what = "pair-jumps" if len(differs) else "pair-counts"
         finding = at_block(low, program.lines, "3B705", max(row, 0), what=what, **values)
         raise ProgramError(finding, excerpt=program.excerpt(finding.line))
     return replace(program, toolpath=replace(low, upper=high.picked(slice(None))))
+
+
+def upper_program(program: Program) -> Program:
+    """A program along the upper contour of one that has two: the same blocks, without words that count steps."""
+    toolpath, upper = program.toolpath, program.toolpath.upper
+    if upper is None:
+        raise ValueError(f"{program.name} has one contour")
+    columns = {name: getattr(upper, name) for name in Curves.__slots__}
+    unprinted = np.full((len(toolpath), 2), np.nan)
+    alone = replace(toolpath, **columns, printed_end_um=unprinted, words=None, told_center_um=None, upper=None)
+    return replace(program, toolpath=alone)
 
 
 def moving(program: Program) -> Program:

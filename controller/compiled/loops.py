@@ -39,10 +39,15 @@ class Loop:
         As `compiled` has them.
     is_part
         Whether it is made for other loops alone, by `loop_part`.
+    is_core
+        Whether it runs as it is written where LLVM is not installed.
     """
 
-    def __init__(self, function: Callable[..., Any], signature: str, tuples: tuple[type, ...], is_part: bool) -> None:
-        self.function, self.signature, self.tuples, self.is_part = function, signature, tuples, is_part
+    def __init__(
+        self, function: Callable[..., Any], signature: str, tuples: tuple[type, ...], *, is_part: bool, is_core: bool
+    ) -> None:
+        self.function, self.signature, self.tuples = function, signature, tuples
+        self.is_part, self.is_core = is_part, is_core
         self._code: Callable[..., Any] | None = None
         update_wrapper(self, function)
 
@@ -64,9 +69,14 @@ class Loop:
         return (self._code or self.loaded())(*args)
 
     def loaded(self) -> Callable[..., Any]:
-        """Its machine code, from disk, or made now and kept there."""
-        from controller.compiled.machine_code import function_of  # noqa: PLC0415 - takes a twentieth of a second
-
+        """Its machine code, from disk, or made now and kept there. ModuleNotFoundError where LLVM is not installed."""
+        try:
+            from controller.compiled.machine_code import function_of  # noqa: PLC0415 - takes a twentieth of a second
+        except ModuleNotFoundError:
+            if not self.is_core:
+                raise
+            self._code = self.function
+            return self._code
         with _loading:
             if self._code is None:
                 self._code = function_of(self._machine_code(), get_type_hints(self.function).get("return"))
@@ -94,7 +104,7 @@ def _made_of(loop: Loop) -> "MachineCode":
     return compiler.made_of(loop)
 
 
-def compiled(signature: str, *tuples: type) -> Callable[[Function], Function]:
+def compiled(signature: str, *tuples: type, is_core: bool = False) -> Callable[[Function], Function]:
     """Compile a function for a signature in numba's words, such as ``"f8(f8[::1], i8)"``, when it is first called.
 
     A signature may also name NamedTuples, which are given as `tuples`: ``"(Drive, f8)"``. Their fields are floats,
@@ -105,19 +115,22 @@ def compiled(signature: str, *tuples: type) -> Callable[[Function], Function]:
     The package may bring its code (`controller.compiled.entries`). What is compiled here stays in the user's cache
     folder, or where the environment's ``NUMBA_CACHE_DIR`` says; where neither can be written, it is compiled again in
     each process. Division by zero gives infinities and NaN, as in numpy.
+
+    What is done without extras takes loops of the core (`is_core`): they run as they are written, a hundred times
+    slower, where LLVM is not installed.
     """
 
     def compiled_loop(function: Function) -> Function:
-        return cast("Function", Loop(function, signature, tuples, is_part=False))
+        return cast("Function", Loop(function, signature, tuples, is_part=False, is_core=is_core))
 
     return compiled_loop
 
 
-def loop_part(signature: str, *tuples: type) -> Callable[[Function], Function]:
+def loop_part(signature: str, *tuples: type, is_core: bool = False) -> Callable[[Function], Function]:
     """Like `compiled`, of a function that other loops alone call: set-up makes no code of its own for it."""
 
     def part(function: Function) -> Function:
-        return cast("Function", Loop(function, signature, tuples, is_part=True))
+        return cast("Function", Loop(function, signature, tuples, is_part=True, is_core=is_core))
 
     return part
 

@@ -188,6 +188,8 @@ class OffsetPath:
         (m,) row that each comes from, rising; a bridge has that of the block before it.
     made
         (m,) values of `RowOrigin`.
+    place
+        (m,) values of `Order`: its place among the rows that come from the same one.
     vanished
         (v,) rows that have no place on the offset path.
     """
@@ -195,6 +197,7 @@ class OffsetPath:
     curves: Curves
     source_row: Ints
     made: Ints
+    place: Ints
     vanished: Ints
 
 
@@ -283,7 +286,8 @@ def in_order(parts: Sequence[Rows], vanished: Ints) -> OffsetPath:
     )
     order = np.lexsort((place, source_row))
     curves = _continued(joined([part.curves for part in parts]).picked(order))
-    return OffsetPath(curves, source_row[order], made[order].astype(np.int64), vanished)
+    origins, places = made[order].astype(np.int64), place[order].astype(np.int64)
+    return OffsetPath(curves, source_row[order], origins, places, vanished)
 
 
 def lines_between(start_um: Floats, end_um: Floats) -> Curves:

@@ -57,7 +57,8 @@ def compensate(
     """
     n = len(toolpath)
     if not sections:
-        return OffsetPath(toolpath.picked(slice(None)), np.arange(n), np.full(n, RowOrigin.AS_IT_IS), np.arange(0))
+        origins, places = (np.full(n, value) for value in (RowOrigin.AS_IT_IS, Order.ITSELF))
+        return OffsetPath(toolpath.picked(slice(None)), np.arange(n), origins, places, np.arange(0))
     left_um = np.broadcast_to(np.asarray(offset_um * side, dtype=np.float64), len(sections))
     blocks = shifted_blocks(toolpath, sections, left_um)
     chain = joined_blocks(blocks, sections, "lengthen")

@@ -201,30 +201,12 @@ def tilted(path: Curves, lean: Lean, heights: Heights, corner: Corner) -> Tilted
     lower, upper, source = _matched(low, high)
     turned = (*_turned(low, heights.program_um, 0.0), *_turned(high, heights.program_um, heights.work_um))
     ruled = Ruled(_kinds(lower, path, source), _kinds(upper, path, source), 0.0, heights.work_um)
-    loops = tuple(_rows_between(source, *closing) for closing in closings)
+    loops = tuple(rows_between(source, *closing) for closing in closings)
     angle_rad = float(np.arctan(np.abs(lean.tangent).max(initial=0.0)))
     return TiltedPath(ruled, heights, source, loops, turned, angle_rad)
 
 
-def between_contours(toolpath: Toolpath, upper: Curves, heights: Heights, planes_um: tuple[float, float]) -> TiltedPath:
-    """The way of a wire along two contours, matched row by row, at two heights.
-
-    Their contours at the faces of the work follow; arcs that differ are not arcs there, and are cut into chords.
-    """
-    lower = toolpath.picked(slice(None))
-    ruled = Ruled(lower, upper, *planes_um)
-    source = np.arange(len(lower))
-    if planes_um != (0.0, heights.work_um):
-        ruled, source = _at_faces(ruled, heights.work_um)
-    loops = tuple(
-        _rows_between(source, section.first, section.last)
-        for _, _, section in rounds_of(toolpath)
-        if section.closed and _gap_um(upper, section.first, section.last) <= CLOSED_WITHIN_UM
-    )
-    return TiltedPath(ruled, heights, source, loops, (), None)
-
-
-def _gap_um(curves: Curves, first: int, last: int) -> float:
+def gap_um(curves: Curves, first: int, last: int) -> float:
     """From where a row ends to where another one starts."""
     return float(np.hypot(*(curves.end_um[last] - curves.start_um[first])))
 
@@ -235,7 +217,7 @@ def _joints(path: Curves, walls: Bools) -> tuple[Joints, list[tuple[int, int]]]:
     early, late = inner.tolist(), (inner + 1).tolist()
     closings: list[tuple[int, int]] = []
     for first, last in _stretches(walls):
-        if _gap_um(path, first, last) <= CLOSED_WITHIN_UM and (last > first or path.is_arc[first]):
+        if gap_um(path, first, last) <= CLOSED_WITHIN_UM and (last > first or path.is_arc[first]):
             closings.append((first, last))
             early.append(last)
             late.append(first)
@@ -272,15 +254,9 @@ def _turned(plane: ShiftedContour, program_um: float, z_um: float) -> list[Turne
     return [Turned(int(row), program_um + float(plane.vanish[row]) * (z_um - program_um)) for row in rows]
 
 
-def _rows_between(source: Ints, first: int, last: int) -> Ints:
+def rows_between(source: Ints, first: int, last: int) -> Ints:
     """Rows that belong to rows of the toolpath from the first to the last."""
     return np.flatnonzero((source >= first) & (source <= last))
-
-
-def _at_faces(ruled: Ruled, work_um: float) -> tuple[Ruled, Ints]:
-    """The same surface from the bottom to the top of the work, and the row (k,) that each of its rows belongs to."""
-    (lower, upper), row = ruled.sections((0.0, work_um))
-    return Ruled(lower, upper, 0.0, work_um), row
 
 
 def _sampled(rows: int) -> tuple[Ints, Floats]:

@@ -54,11 +54,15 @@ class CataloguePage(NamedTuple):
 
 
 class Example(NamedTuple):
-    """A program with the fault, the same one mended, and what ``drycut check`` needs to see the fault."""
+    """A program with the fault, the same one mended, and what ``drycut check`` needs to see the fault.
+
+    `files` are those that the options name: their names, and their texts.
+    """
 
     program: str
     mended: str
     options: tuple[str, ...]
+    files: Mapping[str, str]
 
 
 class Texts(NamedTuple):
@@ -80,7 +84,9 @@ def page(code: str, language: Language = "en") -> CataloguePage:
 def example(code: str) -> Example | None:
     """Example of a code, None where a program alone cannot show it. KeyError where there is no such code."""
     found = _file(code).get("example")
-    return found and Example(found["program"], found["mended"], tuple(found.get("options", ())))
+    if found is None:
+        return None
+    return Example(found["program"], found["mended"], tuple(found.get("options", ())), found.get("files", {}))
 
 
 def texts(finding: Finding, language: Language = "en") -> Texts:

@@ -151,6 +151,7 @@ _codes = {
     "3B709": FindingCode(Severity.ERROR, Check.TAPER),
     "3B710": FindingCode(Severity.ERROR, Check.TAPER),
     "3B711": FindingCode(Severity.ERROR, check=None, placed=True),
+    "3B712": FindingCode(Severity.WARNING, Check.TAPER),
     "GEC401": FindingCode(Severity.WARNING, None),
     "GEC402": FindingCode(Severity.WARNING, None),
     "GEC403": FindingCode(Severity.WARNING, None),

@@ -6,6 +6,9 @@ other one is blanked out, so that all words keep their places, and the text is r
 
 from dataclasses import replace
 
+import numpy as np
+
+from parser.controller_words import Compensation
 from parser.dialect.reader import Assumption, Choices
 from parser.geometry.curves import CurveKind
 from parser.iso.listing.lexer import read_listing
@@ -19,8 +22,8 @@ from parser.iso.profiles.profile import Profile
 def with_upper_contour(listing: Listing, profile: Profile, choices: Choices, path: Moved) -> Moved:
     """The path of the lower contour with that of the upper one, where blocks have both.
 
-    Where the two cannot be run block by block, or one compensates or leans besides, the wire is not known in each
-    plane.
+    Where the two cannot be run block by block, where one leans besides, or where they compensate by different offsets,
+    the wire is not known in each plane.
     """
     planes = [statement.span for statement in listing.statements if statement.form is Form.TWO_PLANES]
     if not planes:
@@ -29,8 +32,9 @@ def with_upper_contour(listing: Listing, profile: Profile, choices: Choices, pat
     texts = (behind, before) if profile.planes == "upper-lower" else (before, behind)
     lower, upper = (moved(checked(read_listing(text), profile), profile, choices) for text in texts)
     toolpath, other = lower.toolpath, upper.toolpath
-    is_plain = not (toolpath.leans or other.leans or toolpath.compensation or other.compensation)
-    if not is_plain or not same_rows(toolpath, other) or lower.damages or upper.damages:
+    leans = toolpath.leans or other.leans
+    is_one_offset = _same_compensation(toolpath.compensation, other.compensation)
+    if leans or not is_one_offset or not same_rows(toolpath, other) or lower.damages or upper.damages:
         return path._replace(lean_is_known=False)
     contour = with_jumps(other.picked(slice(None)), toolpath.kind == CurveKind.JUMP)
     source = replace(toolpath.source, text=listing.text)
@@ -38,6 +42,13 @@ def with_upper_contour(listing: Listing, profile: Profile, choices: Choices, pat
     order = " : ".join(profile.planes.split("-"))
     assumed = (*lower.assumptions, Assumption("assumed-planes", order, "because-planes"))
     return lower._replace(toolpath=replace(toolpath, upper=contour, source=source), findings=found, assumptions=assumed)
+
+
+def _same_compensation(lower: Compensation | None, upper: Compensation | None) -> bool:
+    """Whether two contours are offset to one side by as much, block by block, or neither is."""
+    if lower is None or upper is None:
+        return lower is upper
+    return bool((lower.side == upper.side).all()) and np.array_equal(lower.by_um, upper.by_um, equal_nan=True)
 
 
 def _apart(text: str, planes: list[tuple[int, int]]) -> tuple[str, str]:

@@ -16,7 +16,7 @@ from parser.iso.profiles.profile import Profile
 from parser.units import mm
 
 GROUPS = (
-    *("motion", "plane", "distance", "centres", "unit", "compensation", "taper", "system", "rotation"),
+    *("motion", "plane", "distance", "centres", "unit", "compensation", "two-planes", "taper", "system", "rotation"),
     *("path-mode", "cycle", "feed", "lifecycle"),
 )
 """Groups of G words of which a block has one at most; other effects are none."""

@@ -4,11 +4,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from controller.taper.tilted import Lean, TiltedPath, between_contours, figure_lean, tilted, told_lean
+from controller.taper.tilted import Lean, TiltedPath, figure_lean, tilted, told_lean
+from controller.taper.two_contours import between_contours, matched_offsets, matched_rows
 from parser.controller_words import Taper
-from parser.findings.errors import SettingsError
+from parser.dialect.reader import at_block
+from parser.findings.errors import ProgramError, SettingsError
 from parser.geometry.curves import Floats
-from parser.program import Program, load_program, paired
+from parser.program import Program, load_program, paired, upper_program
+from sim.check.compensation.check import compensation_of, own_compensation
 from sim.check.offset import Offsetting
 from sim.setup.machine.guides import Guides
 from sim.setup.part import Offset
@@ -38,13 +41,29 @@ def with_upper(program: Program, taper: TaperSettings | None) -> Program:
     return paired(program, upper)
 
 
-def tilted_path(drawn: Program, made: Offsetting | None, demands: LeanDemands) -> TiltedPath | None:
-    """The way of the wire of a program; None where it is upright. `made` is what an offset made of the program.
+class Offsets(NamedTuple):
+    """What an offset made of a program, and of its upper contour; None where there is no such thing."""
 
-    SettingsError where program and settings both tell of the lean, where the program plane is outside of the work, and
-    where two contours are to be offset.
+    plane: Offsetting | None
+    top: Offsetting | None
+
+
+def own_offsets(program: Program, plane: Offsetting | None) -> Offsets:
+    """What a program's own compensation made of it, `plane`, with what it makes of its upper contour."""
+    compensation = compensation_of(program.toolpath)
+    if plane is None or compensation is None or program.toolpath.upper is None:
+        return Offsets(plane, None)
+    upper = upper_program(program)
+    return Offsets(plane, own_compensation(upper, compensation, np.ones(len(upper.toolpath), dtype=np.bool_)).made)
+
+
+def tilted_path(drawn: Program, offsets: Offsets, demands: LeanDemands) -> TiltedPath | None:
+    """The way of the wire of a program; None where it is upright.
+
+    SettingsError where program and settings both tell of the lean, and where the program plane is outside of the work;
+    ProgramError (3B705) where the offsets of two contours run along them in different rounds.
     """
-    taper, contour = demands.taper, drawn.toolpath
+    taper, contour, made = demands.taper, drawn.toolpath, offsets.plane
     angle_rad = taper.angle_rad or 0.0
     if contour.leans and angle_rad:
         raise SettingsError("taper-twice", name=drawn.name)
@@ -53,9 +72,11 @@ def tilted_path(drawn: Program, made: Offsetting | None, demands: LeanDemands) -
     heights = heights_of(taper, demands.guides, demands.thickness_mm)
     toolpath = contour if made is None else made.program.toolpath
     if contour.upper is not None:
-        if made is not None:
-            raise SettingsError("contours-not-offset", name=drawn.name)
-        return between_contours(contour, contour.upper, heights, (taper.program_plane_um, heights.work_um))
+        contours = matched_rows(contour, contour.upper)
+        if made is not None and offsets.top is not None:
+            _refuse_other_rounds(drawn, made, offsets.top)
+            contours = matched_offsets(made.path, offsets.top.path)
+        return between_contours(toolpath, contours, heights, (taper.program_plane_um, heights.work_um))
     if contour.taper is not None:
         return tilted(toolpath, told_lean(_as_run(contour.taper, made), toolpath), heights, taper.corner)
     whole = figure_lean(toolpath, angle_rad, int(taper.side))
@@ -70,6 +91,18 @@ def leaning_offset(offset: Offset | None, taper: TaperSettings | None) -> Offset
         return offset
     cos = float(np.cos(angle_rad))
     return offset._replace(passes=tuple(each._replace(by_um=each.by_um / cos) for each in offset.passes))
+
+
+def _refuse_other_rounds(drawn: Program, plane: Offsetting, top: Offsetting) -> None:
+    rounds = [[passed.round for passed in of.passed.rounds] for of in (plane, top)]
+    if rounds[0] == rounds[1]:
+        return
+    other = next((a for a, b in zip(*rounds, strict=False) if a != b), rounds[0][-1] if rounds[0] else None)
+    n = len(drawn.toolpath)
+    found = at_block(
+        drawn.toolpath, drawn.lines, "3B705", other.begin if other else 0, what="pair-rounds", lower=n, upper=n
+    )
+    raise ProgramError(found, excerpt=drawn.excerpt(found.line))
 
 
 def _directions(made: Offsetting | None, rows: int) -> Floats:

@@ -210,14 +210,17 @@ class _PathChecks:
 
     def _leaning(self, lean: "LeanDemands") -> Iterator[Finding | CheckState]:
         """Findings about the lean of the wire, and how far their check came; none of an upright one."""
-        from sim.check.lean import tilted_path  # noqa: PLC0415 - most programs are upright, and start sooner without
-        from sim.check.taper import taper_findings  # noqa: PLC0415
+        # Most programs are upright, and start sooner without.
+        from sim.check.lean import own_offsets, tilted_path  # noqa: PLC0415
+        from sim.check.taper import taper_findings, top_offset_findings  # noqa: PLC0415
 
         made = self.compensation
-        path = tilted_path(self._program, made, lean)
+        offsets = own_offsets(self._program, made)
+        path = tilted_path(self._program, offsets, lean)
         if path is not None:
             program = self._program if made is None else made.program
             yield from taper_findings(program, path, lean.guides, self._demands.table, self._demands.start_um)
+            yield from top_offset_findings(program, offsets)
             yield self._state(Check.TAPER, self._left_out or self._without_value)
 
     @property

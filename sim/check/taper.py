@@ -7,6 +7,7 @@ import numpy as np
 
 from controller.taper.tilted import TiltedPath, section_toolpath
 from parser.dialect.reader import at_block
+from parser.findings.codes import Severity
 from parser.findings.findings import Finding, Value
 from parser.program import Program
 from parser.shape.contours import contour_rows
@@ -14,6 +15,7 @@ from parser.shape.passes import find_passes
 from parser.toolpath import Toolpath
 from parser.units import from_mm, mm
 from sim.check.crossings import find_crossings
+from sim.check.lean import Offsets
 from sim.check.travel import ROUNDING_UM
 from sim.setup.machine.guides import Guides
 from sim.setup.machine.table import TableModel
@@ -57,6 +59,21 @@ def not_widened(program: Program, angle_rad: float, reach_um: float) -> Iterator
     if abs(header_um - reach_um) < _OFFSET_UM:
         off_um = needed_um - header_um
         yield _at(program, "3B708", 0, offset_mm=mm(header_um), off=off_um, needed_mm=mm(needed_um))
+
+
+def top_offset_findings(program: Program, offsets: Offsets) -> Iterator[Finding]:
+    """3B712: the offset does to the contour at the top what it does not to the lower one; at its first block."""
+    plane, top = offsets
+    if plane is None or top is None:
+        return
+    below = {found.block for found in plane.findings}
+    new = [found for found in top.findings if found.severity is not Severity.NOTE and found.block not in below]
+    if not new:
+        return
+    worst = next((found for found in new if found.severity is Severity.ERROR), new[0])
+    row = int(np.argmax(program.toolpath.source.block == worst.block))
+    found = _at(program, "3B712", row, other=worst.code, more=len(new) - 1)
+    yield found._replace(graver=worst.severity if worst.severity is Severity.ERROR else None)
 
 
 def _turned(program: Program, path: TiltedPath) -> Iterator[Finding]:

@@ -26,7 +26,7 @@ from sim.setup.part import DRAWING, THICKNESS
 if TYPE_CHECKING:
     from parser.dialect.reader import ChosenDialect
     from parser.program import Program
-    from sim.measure.compare.result import FitRequest
+    from sim.run.drawings import Drawings
     from sim.run.faces import CutOffset, Faces
     from sim.setup.part import DrawingTarget
     from sim.setup.scenario import Scenario
@@ -65,11 +65,8 @@ def compare(  # noqa: PLR0913 - click hands over each option by its name
     drycut compare part.3b below.dxf --drawing-upper top.dxf --taper 3deg --height 40mm
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     from sim.cli.scenario_options import drawing_target, of_options, read_with
-    from sim.measure.compare.result import FitRequest
-    from sim.run.report.drawing import document_text
+    from sim.run.drawings import drawings_of
     from sim.setup.scenario import load_scenario, with_values
-    from sim.show.terminal.compare import print_comparison
-    from sim.show.terminal.printer import write
 
     given = _checked(offsets_of(offset))
     scenario = read_with(load_scenario(path), dialect, unit, given.registers)
@@ -80,10 +77,14 @@ def compare(  # noqa: PLR0913 - click hands over each option by its name
     target = drawing_target(scenario.drawing, drawing, drawing_upper, settings)
     if target is None:
         raise click.MissingParameter(param_hint="DRAWING.dxf", param_type="argument")
+    drawings = drawings_of(target)  # where an extra lacks, this says which has all
+    from sim.run.report.drawing import document_text
+    from sim.show.terminal.compare import print_comparison
+    from sim.show.terminal.printer import write
+
     program = _program(scenario)
     cut_offset, source = _offset(given.plain, program, scenario)
-    request = FitRequest(target.tolerance_um, target.fit, target.sharp_corners)
-    done = _compared(program, scenario, cut_offset, target, request)
+    done = _compared(program, scenario, cut_offset, target, drawings)
     if as_json:
         write(document_text(done.plane, done.top), "json")
     else:
@@ -119,16 +120,17 @@ def _program(scenario: "Scenario") -> "Program":
 
 
 def _compared(
-    program: "Program", scenario: "Scenario", offset: "CutOffset", target: "DrawingTarget", request: "FitRequest"
+    program: "Program", scenario: "Scenario", offset: "CutOffset", target: "DrawingTarget", drawings: "Drawings"
 ) -> "Faces":
     """The edge beside its drawing, at the top too; a program that cannot run is refused."""
     from parser.findings.errors import ProgramError
     from sim.cli.scenario_options import refused
-    from sim.run.drawings import drawings_of
+    from sim.measure.compare.result import FitRequest
     from sim.run.faces import compared_faces
 
-    plane, top = drawings_of(target)
+    plane, top = drawings
     assert plane is not None  # noqa: S101 - there is a target
+    request = FitRequest(target.tolerance_um, target.fit, target.sharp_corners)
     try:
         return compared_faces(program, scenario, offset, (plane, top), request)
     except ProgramError as error:

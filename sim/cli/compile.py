@@ -18,7 +18,6 @@ LOOPS: Final[tuple[str, ...]] = (
     "sim.measure.compare.rings",
     "sim.measure.compare.nearest",
     "sim.measure.compare.directed",
-    "sim.measure.curve_rows",
     "sim.measure.deviation",
     "sim.measure.causes",
     "sim.process.ticks.chance",
@@ -26,17 +25,13 @@ LOOPS: Final[tuple[str, ...]] = (
     "sim.process.ticks.tick",
     "sim.process.ticks.walls",
     "sim.show.draw.flatten",
-    "sim.table.forms",
-    "sim.table.course",
-    "sim.table.events",
     "sim.table.rating",
     "sim.table.turning",
     "sim.table.history",
-    "sim.table.axis",
     "sim.table.recording",
     "sim.table.swings",
 )
-"""Modules with compiled loops."""
+"""Modules with loops that Python calls."""
 
 
 def compile_loops() -> tuple[Path, ...]:

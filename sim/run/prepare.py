@@ -21,11 +21,11 @@ from parser.findings.codes import Check, Severity
 from parser.findings.errors import ProgramError, SettingsError
 from parser.findings.findings import Finding, NotSimulated, WithoutOffset, file_order, telling
 from parser.geometry.curves import Floats
-from parser.program import Program
+from parser.program import Program, upper_program
 from parser.shape.passes import Passes, find_passes, pass_numbers
 from parser.toolpath import Toolpath
 from sim.check.compensation.check import WithoutValue, compensation_of, is_known
-from sim.check.lean import LeanDemands, leaning_offset, tilted_path, with_upper
+from sim.check.lean import LeanDemands, Offsets, leaning_offset, own_offsets, tilted_path, with_upper
 from sim.check.offset import (
     Distances,
     Offsetting,
@@ -40,7 +40,7 @@ from sim.check.offset import (
 from sim.check.passes import asked_pass_findings
 from sim.check.path_checks import Checked, Demands, run_checks
 from sim.check.result import CheckState, Coverage
-from sim.check.taper import not_widened, taper_findings
+from sim.check.taper import not_widened, taper_findings, top_offset_findings
 from sim.check.travel import refusal, too_many_steps, travel_findings
 from sim.setup.part import Offset
 from sim.setup.quiz import refuse_unanswerable
@@ -155,6 +155,8 @@ class Prepared(NamedTuple):
         Of the program as it was read, and of its offset; and how far their checks came.
     tilt
         The way of a wire that leans; None of an upright one.
+    top
+        What the offset made of the upper contour; None where there is none, or no offset.
     """
 
     program: Program
@@ -164,6 +166,7 @@ class Prepared(NamedTuple):
     findings: tuple[Finding, ...]
     coverage: Coverage
     tilt: TiltedPath | None = None
+    top: Offsetting | None = None
 
 
 def prepare(program: Program, scenario: Scenario) -> Prepared:
@@ -177,7 +180,15 @@ def prepare(program: Program, scenario: Scenario) -> Prepared:
     program = with_upper(program, taper)
     ready = _in_plane(program, replace(scenario, offset=leaning_offset(scenario.offset, taper)))
     demands = LeanDemands(taper or TaperSettings(), scenario.known_guides, scenario.thickness_mm)
-    return ready._replace(tilt=tilted_path(program, ready.offset, demands))
+    offsets = _offsets(program, ready.offset, scenario.offset)
+    return ready._replace(tilt=tilted_path(program, offsets, demands), top=offsets.top)
+
+
+def _offsets(program: Program, plane: Offsetting | None, added: Offset | None) -> Offsets:
+    """What an offset made of a program, `plane`, with what it makes of its upper contour."""
+    if plane is None or added is None or program.toolpath.upper is None:
+        return own_offsets(program, plane)
+    return Offsets(plane, offsetting(upper_program(program), added))
 
 
 def _in_plane(program: Program, scenario: Scenario) -> Prepared:
@@ -210,6 +221,7 @@ def tilt_findings(ready: Prepared, scenario: Scenario) -> Iterator[Finding]:
         return
     table, start_um = scenario.machine.table, scenario.start_um
     yield from taper_findings(ready.program, ready.tilt, scenario.known_guides, table, start_um)
+    yield from top_offset_findings(ready.program, Offsets(ready.offset, ready.top))
     if ready.offset is None and scenario.taper is not None and scenario.taper.angle_rad:
         yield from not_widened(ready.program, scenario.taper.angle_rad, scenario.wire.reach_um)
 

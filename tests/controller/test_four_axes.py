@@ -11,7 +11,8 @@ from controller.motion.limits import Feeds, JunctionDeviation, MotionLimits
 from controller.stepping.pulses import Pulses
 from controller.taper.axes import AxisLimits, GuidePlan, guide_pulses, plan_guides
 from controller.taper.shifted_contour import Corner
-from controller.taper.tilted import TiltedPath, between_contours, tilted, told_lean
+from controller.taper.tilted import TiltedPath, tilted, told_lean
+from controller.taper.two_contours import between_contours, matched_rows
 from parser.geometry.curves import Curves, Floats, Ints, curves_between, total_before
 
 FREE = AxisLimits((math.inf,) * 4, (math.inf,) * 4)
@@ -82,7 +83,7 @@ def test_all_axes_end_each_block_together_where_it_ends() -> None:
 def test_the_surface_of_the_steps_is_within_1_um_and_a_half(seed: int) -> None:
     toolpath, upper, _ = random_pair(seed)
     small, above = toolpath_of(_smaller(toolpath)), _smaller(upper)
-    path = between_contours(small, above, HEIGHTS, (0.0, 40_000.0))
+    path = between_contours(small, matched_rows(small, above), HEIGHTS, (0.0, 40_000.0))
     plan = planned(path)
     t = np.linspace(0.0, plan.plan.duration_s, 5003)
     row, share = shares(path, plan, t)
@@ -102,7 +103,7 @@ def _smaller(curves: Curves) -> Curves:
 
 
 def test_round_on_square_closes_in_both_planes() -> None:
-    path = between_contours(SQUARE_UP, ROUND, HEIGHTS, (0.0, 40_000.0))
+    path = between_contours(SQUARE_UP, matched_rows(SQUARE_UP, ROUND), HEIGHTS, (0.0, 40_000.0))
     xy, uv = driven(path, planned(path, 1000.0))
     assert (xy.x_um[-1], xy.y_um[-1], uv.x_um[-1], uv.y_um[-1]) == (0, 0, 0, 0)
 

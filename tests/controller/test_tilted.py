@@ -8,7 +8,8 @@ from depth import cases
 from tilted_paths import HEIGHTS, ROUND, SQUARE, SQUARE_UP, contour, lean, random_pair
 
 from controller.taper.shifted_contour import Corner
-from controller.taper.tilted import Heights, TiltedPath, between_contours, tilted, told_lean
+from controller.taper.tilted import Heights, TiltedPath, tilted, told_lean
+from controller.taper.two_contours import between_contours, matched_rows
 from parser.geometry.along import places
 
 T3 = math.radians(3.0)
@@ -52,7 +53,7 @@ def test_sharp_corners_leave_the_program_plane_as_it_is(corner: Corner, program_
 
 
 def test_round_on_square_is_quadratic_in_height() -> None:
-    path = between_contours(SQUARE_UP, ROUND, HEIGHTS, (0.0, 40_000.0))
+    path = between_contours(SQUARE_UP, matched_rows(SQUARE_UP, ROUND), HEIGHTS, (0.0, 40_000.0))
     areas = [area_mm2(path, z_mm) for z_mm in (0.0, 10.0, 20.0, 30.0, 40.0)]
     assert areas == pytest.approx([400.0, 345.6043, 294.3161, 246.1353, 201.0619], abs=5e-5)
     assert path.ruled.volume_um3(path.loops[0], 0.0, 40_000.0) * 1e-9 == pytest.approx(11_855.5087, abs=5e-5)
@@ -82,7 +83,7 @@ SMALL_UNDER_LARGE = (502, 893)
 def test_sections_are_those_of_an_independent_ruled_surface(seed: int, planes_mm: tuple[float, float]) -> None:
     toolpath, upper, walk = random_pair(seed)
     planes = (1000.0 * planes_mm[0], 1000.0 * planes_mm[1])
-    path = between_contours(toolpath, upper, HEIGHTS, planes)
+    path = between_contours(toolpath, matched_rows(toolpath, upper), HEIGHTS, planes)
     for z_um in (0.0, 10_000.0, 20_000.0, 30_000.0, 40_000.0):
         curves, row = path.ruled.section(z_um)
         source = path.source_row[row]

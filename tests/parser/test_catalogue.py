@@ -27,9 +27,7 @@ from parser.text.encoding import no_program
 PAGES = resources.files("parser.findings") / "pages"
 TEMPLATES = ("found", "expected", "machine", "hint")
 LINE = 110
-NO_EXAMPLE = {"3B100", "3B303", "ISO100", "3B702", "3B703", "3B705", "3B710"} | {
-    code for code, of in CODES.items() if of.check is None
-}
+NO_EXAMPLE = {"3B100", "3B303", "ISO100"} | {code for code, of in CODES.items() if of.check is None}
 
 VALUES: dict[str, dict[str, Value]] = {
     "3B100": {"what": "unreadable-file", "detail": "Permission denied", "hint": "hint-program"},
@@ -128,6 +126,7 @@ VALUES: dict[str, dict[str, Value]] = {
     "3B709": {"z_mm": 40.0},
     "3B710": {},
     "3B711": {"what": "edge-off", "off": 7.0, "tolerance": 5.0, "x_mm": 12.5, "y_mm": 0.0, "entity": "ARC 2F"},
+    "3B712": {"other": "3B503", "more": 1},
     "GEC401": {"call": "GT_ZeroPos(1)", "answer": 1, "function": "GT_ZeroPos", "then": "GT_LnXY(30000.0, 0.0)"},
     "GEC402": {"axis": 1, "side": "limit-negative", "t_s": 16.45},
     "GEC403": {"slept_s": 2.0, "needed_s": 3.4642, "short_s": 1.4642, "call": "GT_ZeroPos(1)", "more": 2},
@@ -258,7 +257,7 @@ def test_a_page_has_all_keys_and_no_others(code: str) -> None:
     for language in LANGUAGES:
         assert set(content[language]) == set(CataloguePage._fields)
         assert all(text.strip() for text in page(code, language))
-    assert set(content.get("example", {})) <= {"program", "mended", "options"}
+    assert set(content.get("example", {})) <= {"program", "mended", "options", "files"}
 
 
 @pytest.mark.parametrize("code", sorted(CODES))

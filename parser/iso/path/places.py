@@ -14,7 +14,8 @@ NO_MOTION = -1
 _ABSOLUTE, _ABSOLUTE_CENTERS = 900, 901
 _UM_PER_INCH = 25_400.0
 _INCH, _MM = (200, 700), (210, 710)
-_LEFT, _RIGHT = 410, 420
+_LEFT, _RIGHT = (410, 1410, 1510), (420, 1420, 1520)
+"""G41 and G42; G141, G142 and G151, G152 do the same to two contours, each in its own plane."""
 
 
 class Modes(NamedTuple):
@@ -29,7 +30,7 @@ class Modes(NamedTuple):
     integer_um, point_um
         float64: what a coordinate of 1 means without a point, and with one.
     side
-        int64: +1 G41, −1 G42, 0 G40.
+        int64: +1 G41, −1 G42, 0 G40; words of two planes likewise.
     """
 
     motion: Ints
@@ -46,7 +47,8 @@ def modes(given: GivenColumns, runs: Ints) -> Modes:
     motion = carried(given.group("motion")[runs], NO_MOTION)
     centers = carried(given.group("centres")[runs], _ABSOLUTE_CENTERS if profile.centers == "absolute" else 0)
     distance = carried(given.group("distance")[runs], _ABSOLUTE if profile.distance == "absolute" else 0)
-    side = carried(given.group("compensation")[runs], 0)
+    side, of_planes = (carried(given.group(name)[runs], 0) for name in ("compensation", "two-planes"))
+    side = np.where(np.isin(of_planes, (*_LEFT, *_RIGHT)), of_planes, side)
     integer_um, point_um = _scales(given, carried(given.group("unit")[runs], 0))
     return Modes(
         motion=np.where(motion >= 0, motion // 10, NO_MOTION),
@@ -54,7 +56,7 @@ def modes(given: GivenColumns, runs: Ints) -> Modes:
         has_absolute_centers=centers == _ABSOLUTE_CENTERS,
         integer_um=integer_um,
         point_um=point_um,
-        side=(side == _LEFT).astype(np.int64) - (side == _RIGHT),
+        side=np.isin(side, _LEFT).astype(np.int64) - np.isin(side, _RIGHT),
     )
 
 

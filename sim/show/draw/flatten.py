@@ -150,7 +150,7 @@ def simplify(points: Floats, tolerance: float) -> Floats:
     return thinned[stays[: len(thinned)]]
 
 
-@compiled("i8(f8[:, ::1], f8)")
+@compiled("i8(f8[:, ::1], f8)", is_core=True)
 def _thin(points: Floats, step: float) -> int:
     """Move one point for each `step` of travel, and both ends, to the front; how many these are."""
     travel, mark, number = 0.0, 0.0, 1
@@ -167,7 +167,7 @@ def _thin(points: Floats, step: float) -> int:
     return number
 
 
-@compiled("void(f8[:, ::1], f8, b1[::1])")
+@compiled("void(f8[:, ::1], f8, b1[::1])", is_core=True)
 def _straighten(points: Floats, tolerance: float, stays: Bools) -> None:
     """Tell which of n points stay, where a line that leaves the others out comes as near to each as a tolerance."""
     stays[:] = True
@@ -179,7 +179,7 @@ def _straighten(points: Floats, tolerance: float, stays: Bools) -> None:
         size *= 2
 
 
-@loop_part("b1(f8[:, ::1], i8, i8, f8)")
+@loop_part("b1(f8[:, ::1], i8, i8, f8)", is_core=True)
 def _is_straight(points: Floats, first: int, size: int, tolerance: float) -> bool:
     """Whether the inner points of a stretch of `size` chords lie as near to its chord as a tolerance."""
     x, y = points[first, 0], points[first, 1]

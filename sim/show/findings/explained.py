@@ -14,7 +14,7 @@ from parser.documents import (
     matching,
     one_of,
 )
-from parser.findings.catalogue import LANGUAGES, Language, example, page
+from parser.findings.catalogue import LANGUAGES, Example, Language, example, page
 from parser.findings.codes import CODES
 from sim.show.findings.pages import severity_word
 from sim.show.terminal.markdown import document, documents, title
@@ -22,10 +22,14 @@ from sim.show.texts import Words
 
 
 class ExampleEntry(TypedDict):
-    """A program that has the finding, the options of the check that shows it, and the program mended."""
+    """A program that has the finding, what the check that shows it is given, and the program mended.
+
+    Texts of the files that the options name stand under their names.
+    """
 
     program: Text
     options: list[str]
+    files: dict[str, Text]
     mended: Text
 
 
@@ -140,5 +144,9 @@ def _code(code: str, language: Language) -> CodeEntry:
         "title": of.title,
         "why": of.why.strip(),
         "mend": of.mend.strip(),
-        "example": excerpt and {"program": excerpt.program, "options": list(excerpt.options), "mended": excerpt.mended},
+        "example": excerpt and _example(excerpt),
     }
+
+
+def _example(of: Example) -> ExampleEntry:
+    return {"program": of.program, "options": list(of.options), "files": dict(of.files), "mended": of.mended}

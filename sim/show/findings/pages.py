@@ -18,7 +18,9 @@ def page_text(code: str, language: Language, level: int = 1) -> str:
     if excerpt:
         key = "findings.page-example-with" if excerpt.options else "findings.page-example"
         head = say(key, options=" ".join(excerpt.options))
-        parts += [f"{head}\n{_fenced(excerpt.program)}", f"{say('findings.page-mended')}\n{_fenced(excerpt.mended)}"]
+        named = [f"`{name}`:\n{_fenced(text)}" for name, text in excerpt.files.items()]
+        mended = f"{say('findings.page-mended')}\n{_fenced(excerpt.mended)}"
+        parts += [f"{head}\n{_fenced(excerpt.program)}", *named, mended]
     return "\n\n".join(parts) + "\n"
 
 

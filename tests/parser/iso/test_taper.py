@@ -97,3 +97,35 @@ def test_contours_that_cannot_be_run_together_are_not_known() -> None:
     program = read("G92 X0. Y0.\nG90\nG01 X10. Y0. : G00 X8. Y0.\nG01 X0. Y0.\nM02\n", "fast-wire")
     assert program.toolpath.upper is None
     assert "ISO600" in {finding.code for finding in program.findings}
+
+
+@pytest.mark.parametrize(
+    ("dialect", "on", "off", "side"),
+    [
+        ("fast-wire", "G41 D1", "G40", 1),
+        ("fast-wire", "G151 D1", "G150", 1),
+        ("fast-wire", "G40 G152 D1", "G40 G150", -1),
+        ("sodick", "G141 H1", "G140", 1),
+        ("sodick", "G142 H1", "G140", -1),
+    ],
+)
+def test_two_contours_are_offset_to_one_side(dialect: str, on: str, off: str, side: int) -> None:
+    register = on[-2:]
+    text = TWO.replace("G90\n", f"G90\n{register}=0.1\n{on}\n").replace("M02", f"{off}\nM02")
+    program = read(text, dialect)
+    compensation = program.toolpath.compensation
+    assert compensation is not None
+    assert program.toolpath.upper is not None
+    assert compensation.left_um.tolist() == [100.0 * side] * 3
+    assert {finding.code for finding in program.findings} == {"ISO112"}
+
+
+def test_words_of_two_planes_stay_unknown_elsewhere() -> None:
+    assert "ISO203" in {finding.code for finding in read("G92 X0 Y0\nG151 D1\nG01 X5. Y0.\nM02\n", "fanuc").findings}
+
+
+def test_contours_with_offsets_of_their_own_are_not_known() -> None:
+    text = TWO.replace("G90\n", "G90\nD1=0.1\nD2=0.2\nG151 D1\n").replace(": G03", ": D2 G03")
+    program = read(text, "fast-wire")
+    assert program.toolpath.upper is None
+    assert "ISO600" in {finding.code for finding in program.findings}

@@ -51,7 +51,7 @@ def shop(tmp_path: Path) -> Path:
     return tmp_path
 
 
-@pytest.mark.alike(1)
+@pytest.mark.alike(4)
 @pytest.mark.parametrize(
     ("code", "arguments"),
     [
@@ -74,7 +74,7 @@ def test_the_core_needs_no_extra(shop: Path, code: int, arguments: tuple[str, ..
     assert (done[0], done[2].count("error:")) == (code, 0), done[2]
 
 
-@pytest.mark.alike(1)
+@pytest.mark.alike(4)
 @pytest.mark.parametrize(
     ("extra", "arguments"),
     [

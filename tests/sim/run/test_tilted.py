@@ -196,6 +196,81 @@ def test_two_programs_are_run_block_by_block(run: Run) -> None:
     assert taper["volume_mm3"]["programmed"] == pytest.approx(40.0 / 3.0 * (400.0 + 256.0 + 320.0), abs=1e-3)
 
 
+ROUND_ON_SQUARE = b"""D1=0.1
+G92 X0. Y-15.
+G90
+G152 D1
+G01 X0. Y-10. : G01 X0. Y-8.
+G01 X10. Y-10. : G03 X5.657 Y-5.657 I0. J8.
+G01 X10. Y0. : G03 X8. Y0. I-5.657 J5.657
+G01 X10. Y10. : G03 X5.657 Y5.657 I-8. J0.
+G01 X0. Y10. : G03 X0. Y8. I-5.657 J-5.657
+G01 X-10. Y10. : G03 X-5.657 Y5.657 I0. J-8.
+G01 X-10. Y0. : G03 X-8. Y0. I5.657 J-5.657
+G01 X-10. Y-10. : G03 X-5.657 Y-5.657 I8. J0.
+G01 X0. Y-10. : G03 X0. Y-8. I5.657 J5.657
+G150
+G01 X0. Y-15. : G01 X0. Y-15.
+M02
+"""
+"""Worked solid of round on square, its wire to the right of both contours by 0.1 mm."""
+THIN = replace(DEFAULT_WIRE, diameter_um=180.0, spark_gap_um=10.0)
+
+
+def test_the_offset_of_two_contours_leaves_the_solid_between_them(run: Run) -> None:
+    done = run(ROUND_ON_SQUARE, "part.iso", wire=THIN, kerf=True, dialect="fast-wire")
+    taper = build_report(done)["taper"]
+    assert taper is not None
+    assert codes(done) == ["ISO112"]
+    # The wire leans by 3° across its walls, so it cuts 0.15 um farther than its offset, and steps are 1 um.
+    assert taper["volume_mm3"]["piece"] == pytest.approx(11_855.509, rel=4e-4)
+    areas = [section["piece_area_mm2"] for section in taper["sections"]]
+    assert areas == pytest.approx([400.0, 345.6043, 294.3161, 246.1353, 201.0619], rel=5e-4)
+
+
+def test_an_offset_beside_two_programs_is_that_of_each(run: Run) -> None:
+    offset = Offset((OffsetPass(100.0),), SIDES["right"])
+    done = run(taper=above(UPPER), offset=offset, wire=THIN, kerf=True)
+    taper = build_report(done)["taper"]
+    assert taper is not None
+    assert codes(done) == []
+    boxes = [section["box_mm"] for section in taper["sections"]]
+    assert (boxes[0], boxes[4]) == ([20.2, 20.2], [16.2, 16.2])
+    assert taper["sections"][4]["piece_area_mm2"] == pytest.approx(256.0, abs=0.05)
+
+
+NOTCHED = b"""B0B5000B5000GYL2
+B10000B0B10000GXL1
+B0B8000B8000GYL2
+B3000B0B3000GXL3
+B0B%dB%dGYL2
+B3000B0B3000GXL1
+B0B%dB%dGYL2
+B20000B0B20000GXL3
+B0B20000B20000GYL4
+B10000B0B10000GXL1
+B0B5000B5000GYL4
+DD
+"""
+
+
+def test_an_offset_that_fits_the_lower_contour_alone_is_told(run: Run) -> None:
+    wide, narrow = (NOTCHED % (gap, gap, 12_000 - gap, 12_000 - gap) for gap in (2000, 150))
+    offset = Offset((OffsetPass(100.0),), SIDES["right"])
+    assert codes(run(wide, taper=above(wide), offset=offset, wire=THIN)) == []
+    found = run(wide, taper=above(narrow), offset=offset, wire=THIN).findings
+    assert "3B712" in [each.code for each in found]
+    assert next(each for each in found if each.code == "3B712").values["other"] in {"3B503", "3B504"}
+
+
+def test_contours_of_which_one_closes_are_not_offset(run: Run) -> None:
+    offset = Offset((OffsetPass(100.0),), SIDES["right"])
+    opened = UPPER.replace(b"B8000B0B8000GXL1\nB0B5000B5000GYL4", b"B7000B0B7000GXL1\nB0B5000B5000GYL4")
+    with pytest.raises(ProgramError) as refused:
+        run(taper=above(opened), offset=offset)
+    assert (refused.value.finding.code, refused.value.finding.values["what"]) == ("3B705", "pair-rounds")
+
+
 ISO = b"G92 X0 Y0\nG90\nG01 X0 Y5000\nX5000 Y5000\nX0 Y0\nM02\n"
 
 

@@ -2,20 +2,19 @@
 
 import io
 import runpy
+from pathlib import Path
 from random import Random
 
 import pytest
 from check_results import AXIS, HOSTILE, hostile, kind, quieted, result, unknown
+from example_checks import checked
 from places import ROOT
 
 from parser.findings.catalogue import LANGUAGES, Language, example, texts
 from parser.findings.codes import CODES
 from parser.findings.findings import Finding
 from parser.text.places import caret_lines, cells
-from sim.check.file_check import Job, check_file
 from sim.check.result import CheckResult
-from sim.check.settings import CheckSettings
-from sim.setup.machine.machine import load_machine
 from sim.show.findings import render
 from sim.show.findings.wording import Options
 from sim.show.terminal.finding import LABELS
@@ -41,12 +40,6 @@ def made(code: str) -> CheckResult:
     return result("part.3b", finding, excerpts={1234: "B9900B0B39600GXNR1"})
 
 
-def checked(program: str, options: tuple[str, ...]) -> CheckResult:
-    machine = load_machine("dk7740") if "--machine" in options else None
-    settings = CheckSettings(machine=machine, wire_diameter_um=180.0 if "--wire-diameter" in options else None)
-    return check_file(Job("part.3b", program.lstrip("\n").encode(), settings))
-
-
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_every_finding_of_the_catalogue_fits_and_says_all(language: Language) -> None:
     for code in CODES:
@@ -60,11 +53,11 @@ def test_every_finding_of_the_catalogue_fits_and_says_all(language: Language) ->
 
 
 @pytest.mark.deeper
-def test_every_example_fits() -> None:
+def test_every_example_fits(tmp_path: Path) -> None:
     for code in CODES:
         shown = example(code)
         if shown:
-            found = checked(shown.program, shown.options)
+            found = checked(shown.program, shown, tmp_path)
             assert found.findings
             assert max(cells(line) for language in LANGUAGES for line in lines([found], language)) <= 80, code
 
