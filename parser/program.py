@@ -9,7 +9,16 @@ import numpy as np
 
 from parser.dialect.decoding import Decoder
 from parser.dialect.mender import Mender
-from parser.dialect.reader import STANDARD_CHOICES, Choices, HeaderValue, Marks, Reader, Reading, at_block
+from parser.dialect.reader import (
+    STANDARD_CHOICES,
+    Choices,
+    HeaderValue,
+    Marks,
+    Reader,
+    Reading,
+    at_block,
+    without_stands,
+)
 from parser.files import PROGRAMS, kind_of, read_bytes
 from parser.findings.errors import ProgramError
 from parser.findings.findings import Finding, Value
@@ -92,7 +101,8 @@ def paired(program: Program, upper: Program) -> Program:
         what = "pair-jumps" if len(differs) else "pair-counts"
         finding = at_block(low, program.lines, "3B705", max(row, 0), what=what, **values)
         raise ProgramError(finding, excerpt=program.excerpt(finding.line))
-    return replace(program, toolpath=replace(low, upper=high.picked(slice(None))))
+    found = without_stands(program.findings, high)
+    return replace(program, toolpath=replace(low, upper=high.picked(slice(None))), findings=found)
 
 
 def upper_program(program: Program) -> Program:

@@ -17,8 +17,8 @@ from parser.dialect.mender import Mender
 from parser.documents import AssumptionEntry
 from parser.findings.catalogue import Language, term
 from parser.findings.codes import Check
-from parser.findings.findings import Finding, Value
-from parser.geometry.curves import Ints
+from parser.findings.findings import Finding, Stands, Value
+from parser.geometry.curves import Curves, Ints
 from parser.text.source import Field, LineIndex, Span
 from parser.toolpath import Toolpath
 
@@ -321,6 +321,12 @@ def at_block(
     A field that is not written, or stands empty, is the whole block too.
     """
     return lines.finding(code, _span(toolpath, row, field), int(toolpath.source.block[row]), **values)
+
+
+def without_stands(findings: Iterable[Finding], upper: Curves) -> tuple[Finding, ...]:
+    """Findings without those on blocks that make no step, where their partner in another contour moves."""
+    moves = upper.length_um > 0.0
+    return tuple(each for each in findings if not (isinstance(each.fact, Stands) and moves[each.block - 1]))
 
 
 def _span(toolpath: Toolpath, row: int, field: Field | None) -> Span:

@@ -193,6 +193,11 @@ class Leans(Fact):
 
 
 @dataclass(frozen=True, slots=True)
+class Stands(Fact):
+    """The block makes no step. Where its partner in another contour moves, this end of the wire stands at a corner."""
+
+
+@dataclass(frozen=True, slots=True)
 class OfAddedOffset(Fact):
     """It tells what the offset of the program's controller does; nothing where that adds none."""
 

@@ -12,7 +12,7 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from parser.geometry.along import headings, places, to_left
-from parser.geometry.curves import Bools, CurveKind, Curves, Floats, Ints, curves_between
+from parser.geometry.curves import Bools, CurveKind, Curves, Floats, Ints, curves_between, joined
 
 _NODES = 24
 """Places of Gauss and Legendre in a row: an arc of a whole turn against a line is then right to 10⁻¹² of its area."""
@@ -120,14 +120,14 @@ class Ruled:
         made.kind[self.is_jump[row]] = CurveKind.JUMP
         return made
 
-    def _chords(self, bent: Bools, heights_um: Sequence[float]) -> "_Chords":
+    def _chords(self, bent: Bools, heights_um: Sequence[float], sagitta_um: float = _SAGITTA_UM) -> "_Chords":
         """Chords for rows that are bent, one for each of the others, near enough at both contours and some heights."""
         # A place moves by P(t) = (1 - w) L(t) + w U(t), and an arc of radius R that turns by s has |L''| = R s². A
         # chord over a share c of the row leaves the row by |P''| c² / 8.
         bends = [np.nan_to_num(of.radius_um) * of.sweep_rad**2 for of in (self.lower, self.upper)]
         shares = [0.0, 1.0, *map(self._share, heights_um)]
         bend = np.maximum.reduce([abs(1.0 - share) * bends[0] + abs(share) * bends[1] for share in shares])
-        count = np.where(bent, np.maximum(np.ceil(np.sqrt(bend / (8.0 * _SAGITTA_UM))), 1.0), 1.0).astype(np.int64)
+        count = np.where(bent, np.maximum(np.ceil(np.sqrt(bend / (8.0 * sagitta_um))), 1.0), 1.0).astype(np.int64)
         row = np.repeat(np.arange(len(self)), count)
         number = np.arange(len(row)) - np.repeat(np.cumsum(count) - count, count)
         return _Chords(row, number / count[row], (number + 1) / count[row])
@@ -135,6 +135,21 @@ class Ruled:
     def _share(self, z_um: float) -> float:
         """A height as a share of the way from the lower contour to the upper one."""
         return (z_um - self.lower_z_um) / self.height_um
+
+    def straightened(self, bent: Bools, sagitta_um: float) -> tuple["Ruled", Ints]:
+        """The surface with some rows (n,) cut into chords, no farther off in both contours; and the row (k,) of each.
+
+        The other rows stay as they are.
+        """
+        row, since, until = self._chords(bent, (), sagitta_um)
+        at = np.where(bent[row], len(self) + np.arange(len(row)), row)
+        straight = np.zeros(len(row))
+        contours = [
+            joined([of, curves_between(places(of, row, since), places(of, row, until), of.end_um[row], straight)])
+            for of in (self.lower, self.upper)
+        ]
+        lower, upper = (of.picked(at) for of in contours)
+        return Ruled(lower, upper, self.lower_z_um, self.upper_z_um), row
 
     def area_um2(self, rows: Ints, z_um: float) -> float:
         """Signed area within the closed section that rows (k,) make at a height, positive counter-clockwise.

@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from parser.controller_words import Compensation
-from parser.dialect.reader import Assumption, Choices
+from parser.dialect.reader import Assumption, Choices, without_stands
 from parser.geometry.curves import CurveKind
 from parser.iso.listing.lexer import read_listing
 from parser.iso.listing.listing import Form, Listing
@@ -38,7 +38,8 @@ def with_upper_contour(listing: Listing, profile: Profile, choices: Choices, pat
         return path._replace(lean_is_known=False)
     contour = with_jumps(other.picked(slice(None)), toolpath.kind == CurveKind.JUMP)
     source = replace(toolpath.source, text=listing.text)
-    found = (*lower.findings, *(each for each in upper.findings if each not in lower.findings))
+    below, above = without_stands(lower.findings, other), without_stands(upper.findings, toolpath)
+    found = (*below, *(each for each in above if each not in below))
     order = " : ".join(profile.planes.split("-"))
     assumed = (*lower.assumptions, Assumption("assumed-planes", order, "because-planes"))
     return lower._replace(toolpath=replace(toolpath, upper=contour, source=source), findings=found, assumptions=assumed)

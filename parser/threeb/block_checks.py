@@ -7,7 +7,16 @@ from numpy.typing import NDArray
 
 from parser.controller_words import Axis, StepWords
 from parser.dialect.reader import Marks, at_block
-from parser.findings.findings import CountedElsewhere, DoubtfulEnd, Finding, NoEnd, Value, WithoutOffset, WrongLabel
+from parser.findings.findings import (
+    CountedElsewhere,
+    DoubtfulEnd,
+    Finding,
+    NoEnd,
+    Stands,
+    Value,
+    WithoutOffset,
+    WrongLabel,
+)
 from parser.geometry.curves import Ints
 from parser.shape.contours import ends_closed
 from parser.shape.passes import Passes, find_passes
@@ -77,7 +86,7 @@ def _endless(toolpath: Toolpath, lines: LineIndex) -> Iterator[Finding]:
 
 def _uncounted(toolpath: Toolpath, lines: LineIndex) -> Iterator[Finding]:
     for row in np.flatnonzero((decoded_words(toolpath).count_um == 0) & ~toolpath.is_jump).tolist():
-        yield at_block(toolpath, lines, "3B205", row, Field.COUNT)
+        yield at_block(toolpath, lines, "3B205", row, Field.COUNT).with_fact(Stands())
 
 
 def _neighbour_labels(toolpath: Toolpath, lines: LineIndex) -> Iterator[Finding]:

@@ -137,6 +137,8 @@ class Draft:
         What is switched where it stands, in ISO.
     taper
         The lean of the wire that is to be written, in ISO; None of an upright one.
+    upper
+        The contour at the top of the work, each of its n rows the partner of a row of `curves`; None of one contour.
     is_meant
         Whether the curves are what is meant, and not what a program made of it: the nearest whole numbers are written
         then, in place of those that a CAM would have written.
@@ -151,6 +153,7 @@ class Draft:
     is_meant: bool = False
     events: tuple[Event, ...] = ()
     taper: Taper | None = None
+    upper: Curves | None = None
 
     def __len__(self) -> int:
         return len(self.curves)
@@ -190,6 +193,7 @@ def draft_of(toolpath: Toolpath) -> Draft:
         words=toolpath.words,
         compensation=toolpath.compensation,
         taper=toolpath.taper,
+        upper=toolpath.upper,
     )
 
 
@@ -226,7 +230,8 @@ def picked(draft: Draft, row: Ints) -> Draft:
     stops = (stop._replace(after=int(np.searchsorted(row, stop.after))) for stop in draft.stops)
     columns = draft.curves.picked(row), tuple(stops), draft.is_placed[row], draft.told_um[row]
     taper = draft.taper and Taper(draft.taper.side[row], draft.taper.angle_rad[row])
-    return Draft(*columns, words, compensation, draft.is_meant, taper=taper)
+    upper = draft.upper and draft.upper.picked(row)
+    return Draft(*columns, words, compensation, draft.is_meant, taper=taper, upper=upper)
 
 
 _SAME_UM = 2.0
@@ -237,8 +242,7 @@ def with_rapid_to_start(draft: Draft) -> Draft:
     if not len(draft) or not draft.curves.start_um[0].any():
         return draft
     curves = draft.curves
-    rapid = curves_between(np.zeros((1, 2)), curves.start_um[:1], np.full((1, 2), np.nan), np.zeros(1))
-    rapid.kind[:] = CurveKind.JUMP
+    rapid = _rapid_to(curves.start_um[:1])
     compensation = draft.compensation and replace(
         draft.compensation,
         side=np.append(0, draft.compensation.side),
@@ -255,7 +259,15 @@ def with_rapid_to_start(draft: Draft) -> Draft:
         words=None,
         compensation=compensation,
         taper=draft.taper and Taper(np.append(0, draft.taper.side), np.append(0.0, draft.taper.angle_rad)),
+        upper=draft.upper and joined([_rapid_to(draft.upper.start_um[:1]), draft.upper]),
     )
+
+
+def _rapid_to(place_um: Floats) -> Curves:
+    """A rapid from (0, 0) to a place (1, 2)."""
+    rapid = curves_between(np.zeros((1, 2)), place_um, np.full((1, 2), np.nan), np.zeros(1))
+    rapid.kind[:] = CurveKind.JUMP
+    return rapid
 
 
 def without_rapids(draft: Draft) -> Draft:
@@ -266,10 +278,11 @@ def without_rapids(draft: Draft) -> Draft:
     """
     cuts = np.flatnonzero(draft.curves.kind != CurveKind.JUMP)
     begun = picked(draft, np.arange(cuts[0] if len(cuts) else len(draft), len(draft)))
-    kind = begun.curves.kind.copy()
-    kind[_returning(begun)] = CurveKind.LINE
+    back = np.isin(np.arange(len(begun)), _returning(begun))
     stops = tuple(stop for stop in begun.stops if stop.kind == "end" or stop.after > 0)
-    return replace(begun, curves=replace(begun.curves, kind=kind), stops=stops)
+    curves = replace(begun.curves, kind=np.where(back, CurveKind.LINE, begun.curves.kind))
+    upper = begun.upper and replace(begun.upper, kind=np.where(back, CurveKind.LINE, begun.upper.kind))
+    return replace(begun, curves=curves, upper=upper, stops=stops)
 
 
 def _returning(draft: Draft) -> Ints:

@@ -22,6 +22,7 @@ from parser.iso.profiles.profile import Profile, profile
 from parser.units import UM_PER_MM, mm
 from parser.write.draft import Draft, Written, optional_stops, written_events
 from parser.write.strokes import Strokes, strokes_of
+from parser.write.two_contours import PairedStrokes, aside, in_one_block, paired_strokes
 
 Unit = Literal["um", "mm", "inch"]
 UM_PER_INCH = 25_400.0
@@ -49,6 +50,8 @@ class Habits:
     behind_cut: tuple[str, ...]
     arc_feed: str
     trims_zeros: bool
+    two_contours: Literal["colon", "uv", "none"]
+    two_sides: tuple[str, str, str]
 
 
 class IsoChoices(NamedTuple):
@@ -140,8 +143,8 @@ class Sides(NamedTuple):
     outside: dict[str, float]
 
 
-def sides_of(compensation: Compensation | None, choices: IsoChoices) -> Sides:
-    """The words of a draft's compensation."""
+def sides_of(compensation: Compensation | None, choices: IsoChoices, *, of_two: bool = False) -> Sides:
+    """The words of a draft's compensation; those `of_two` contours stand alone, since both then have them."""
     sides = Sides({}, {}, {}, {})
     if compensation is None:
         return sides
@@ -155,8 +158,9 @@ def sides_of(compensation: Compensation | None, choices: IsoChoices) -> Sides:
         if side and not np.isnan(by_um) and in_force.get(name) != by_um:
             _tell_value(sides, row, name, by_um, choices)
             in_force[name] = by_um
-        words = [_SIDES[side], name] if side and name else [_SIDES[side]]
-        if choices.habits.side_alone:
+        word = choices.habits.two_sides[side] if of_two else _SIDES[side]
+        words = [word, name] if side and name else [word]
+        if choices.habits.side_alone or of_two:
             sides.before.setdefault(row, []).append(" ".join(words))
         else:
             sides.first[row], sides.last[row] = words[0], " ".join(words[1:])
@@ -249,12 +253,16 @@ def written_iso(draft: Draft, choices: IsoChoices) -> Written:
 
     SettingsError where the dialect cannot say what the draft needs.
     """
-    strokes = strokes_of(draft, choices.step_um)
-    sides = sides_of(draft.compensation, choices)
-    numbered = _numbered([*_head(draft, choices), *_body(draft, choices, strokes, sides)], choices.number_step)
+    if draft.upper is None:
+        strokes = strokes_of(draft, choices.step_um)
+        made = _Blocks(_blocks(draft, choices, strokes), strokes.row)
+    else:
+        made = _of_two_contours(draft, choices)
+    sides = sides_of(draft.compensation, choices, of_two=draft.upper is not None)
+    numbered = _numbered([*_head(draft, choices), *_body(draft, choices, made, sides)], choices.number_step)
     tape = [_TAPE] if choices.tape else []
     lines = [*tape, *_remarks(choices, sides), *numbered, *tape, ""]
-    return Written("\n".join(lines), strokes.row)
+    return Written("\n".join(lines), made.row)
 
 
 def _remarks(choices: IsoChoices, sides: Sides) -> Iterator[str]:
@@ -285,12 +293,18 @@ def _head(draft: Draft, choices: IsoChoices) -> Iterator[str]:
     yield " ".join([*modes, "G92", *_words("XY", start, choices)])
 
 
-def _body(draft: Draft, choices: IsoChoices, strokes: Strokes, sides: Sides) -> Iterator[str]:
+class _Blocks(NamedTuple):
+    """Blocks that move the wire, and the row (m,) of the draft that each is of."""
+
+    text: list[str]
+    row: Ints
+
+
+def _body(draft: Draft, choices: IsoChoices, made: _Blocks, sides: Sides) -> Iterator[str]:
     """Blocks in order, with what stands between them, by the rows that they are of."""
     pauses = {stop.after for stop in draft.stops if stop.kind == "pause"}
     pauses |= set(np.flatnonzero(draft.is_placed).tolist())
-    first = np.searchsorted(strokes.row, np.arange(len(draft) + 1)).tolist()
-    blocks = _blocks(draft, choices, strokes)
+    first = np.searchsorted(made.row, np.arange(len(draft) + 1)).tolist()
     begins, ends = _about_cuts(draft)
     events, optional = written_events(draft.events), optional_stops(draft.events)
     leans = leans_of(draft.taper, choices)
@@ -305,7 +319,7 @@ def _body(draft: Draft, choices: IsoChoices, strokes: Strokes, sides: Sides) -> 
         yield from sides.before.get(row, [])
         begun = " ".join(filter(None, (leans.get(row, ""), sides.first.get(row, ""))))
         closed = sides.last.get(row, "")
-        for block in blocks[first[row] : first[row + 1]]:
+        for block in made.text[first[row] : first[row + 1]]:
             yield " ".join(filter(None, (begun, block, closed)))
             begun = closed = ""
     if len(draft) in ends:
@@ -329,6 +343,28 @@ def _blocks(draft: Draft, choices: IsoChoices, strokes: Strokes) -> list[str]:
     return [
         _placed(strokes.end[at], choices) if placed[at] else _block(motion, to[at], center[at], choices)
         for at, motion in enumerate(strokes.motion.tolist())
+    ]
+
+
+def _of_two_contours(draft: Draft, choices: IsoChoices) -> _Blocks:
+    """Blocks of two contours. SettingsError where the dialect has no words of such."""
+    if choices.habits.two_contours == "none":
+        raise SettingsError("dialect-without-two-contours", dialect=choices.profile.name)
+    if choices.habits.two_contours == "uv" and draft.compensation is not None and draft.compensation.side.any():
+        raise SettingsError("uv-without-compensation", dialect=choices.profile.name)
+    pair = paired_strokes(draft, choices.step_um)
+    return _Blocks(_paired_blocks(draft, choices, pair), pair.lower.row)
+
+
+def _paired_blocks(draft: Draft, choices: IsoChoices, pair: PairedStrokes) -> list[str]:
+    """Blocks of two contours, in the words of the dialect."""
+    below = _blocks(draft, choices, pair.lower)
+    if choices.habits.two_contours == "colon":
+        return in_one_block(below, _blocks(draft, choices, pair.upper), choices.profile.planes)
+    to = aside(pair, is_absolute=choices.distance == "absolute")
+    return [
+        block if words is None else " ".join([block, *_words("UV", words, choices)])
+        for block, words in zip(below, to, strict=True)
     ]
 
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from parser.geometry.curves import Bools
 from parser.iso.listing.lexer import read_listing
-from parser.iso.listing.listing import Listing
+from parser.iso.listing.listing import Form, Listing
 
 _MOST_NAMED = 8
 _SWITCHES = "ABCEFQSTUVWZ"
@@ -55,7 +55,7 @@ def lost_words(text: str, carried: CarriedOver) -> tuple[Loss, ...]:
     switches |= is_m & ~np.isin(words.value, _OF_THE_PATH)
     losses = [
         _named("switches", listing, switches),
-        _of("settings", listing.text, [statement.span for statement in listing.statements]),
+        _of("settings", listing.text, [each.span for each in listing.statements if each.form is not Form.TWO_PLANES]),
         _named("stops", listing, is_m & np.isin(words.value, stops)),
         _of("dwells", listing.text, [_block_span(listing, at) for at in np.flatnonzero(dwells).tolist()]),
         _named("calls", listing, is_m & (words.value == 98)),

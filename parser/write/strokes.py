@@ -50,9 +50,20 @@ def strokes_of(draft: Draft, step_um: float) -> Strokes:
     and what follows have to be written by the rows of the draft.
     """
     turned, row = _in_turns(draft)
+    strokes, moves = all_strokes(turned, step_um)
+    return some_strokes(strokes._replace(row=row), np.flatnonzero(moves | turned.is_placed))
+
+
+def some_strokes(strokes: Strokes, rows: Ints) -> Strokes:
+    """Some of them, (k,) by their numbers."""
+    return Strokes(*(column[rows] for column in strokes))
+
+
+def all_strokes(turned: Draft, step_um: float) -> tuple[Strokes, Bools]:
+    """A stroke for each row of a draft whose arcs turn once at most, and (n,) whether it moves."""
     curves = turned.curves
     full = _is_full(curves)
-    places = _places(curves, step_um, full, 0.0 if draft.is_meant else _LET_BE_STEPS)
+    places = _places(curves, step_um, full, 0.0 if turned.is_meant else _LET_BE_STEPS)
     start, end = places[:-1], places[1:]
     chord = np.hypot(*(end - start).T)
     short = curves.is_arc & ~full & (chord <= _SHORT_STEPS) & (np.abs(curves.sweep_rad) < np.pi)
@@ -60,8 +71,7 @@ def strokes_of(draft: Draft, step_um: float) -> Strokes:
         [curves.kind == CurveKind.JUMP, ~curves.is_arc | short, curves.sweep_rad < 0.0], [0, 1, 2], 3
     ).astype(np.int64)
     center = np.where((motion >= 2)[:, None], _to_center(turned, start, places, step_um), 0)
-    kept_rows = np.flatnonzero((chord > 0.0) | full | turned.is_placed)
-    return Strokes(row[kept_rows], motion[kept_rows], start[kept_rows], end[kept_rows], center[kept_rows])
+    return Strokes(np.arange(len(curves)), motion, start, end, center), (chord > 0.0) | full
 
 
 def _in_turns(draft: Draft) -> tuple[Draft, Ints]:

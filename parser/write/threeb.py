@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import count
 from typing import Literal, NamedTuple
 
@@ -49,9 +50,29 @@ def written_3b(draft: Draft, choices: ThreeBChoices) -> Written:
     A jump stands behind a pause: one that is placed as a start node, any other as a line in the air. Blocks that whole
     µm leave no length are left out.
     """
-    told_words = _words_of(draft)
-    is_block = (told_words.words.count_um > 0) & ~draft.is_placed
-    lines = [*_head(draft, choices), *_body(draft, choices, told_words, is_block)]
+    words = _words_of(draft)
+    return _written(draft, choices, words, words.words.count_um > 0)
+
+
+def written_pair(draft: Draft, choices: ThreeBChoices) -> tuple[Written, Written]:
+    """Texts of both contours of a draft in 3B, with the same blocks: one without a step has a partner that moves.
+
+    ValueError for a draft of one contour.
+    """
+    if draft.upper is None:
+        raise ValueError("a draft of one contour")
+    nowhere = np.full_like(draft.told_um, np.nan)
+    drafts = draft, replace(draft, curves=draft.upper, told_um=nowhere, words=None)
+    words = [_words_of(of) for of in drafts]
+    moves = (words[0].words.count_um > 0) | (words[1].words.count_um > 0)
+    lower, upper = (_written(of, choices, said, moves) for of, said in zip(drafts, words, strict=True))
+    return lower, upper
+
+
+def _written(draft: Draft, choices: ThreeBChoices, said: Chained, moves: Bools) -> Written:
+    """Text of a draft with blocks of the rows (n,) that move."""
+    is_block = moves & ~draft.is_placed
+    lines = [*_head(draft, choices), *_body(draft, choices, said, is_block)]
     return Written("\n".join([*lines, ""]), np.flatnonzero(is_block | draft.is_placed))
 
 

@@ -143,7 +143,7 @@ def _uneven(program: Program) -> Iterator[Finding]:
     sizes = [max(float(length.sum()), 1.0) for length in lengths]
     lower, upper = (length / size for length, size in zip(lengths, sizes, strict=True))
     longer, shorter = np.maximum(lower, upper), np.minimum(lower, upper)
-    long = np.maximum(*lengths) > _SHORT_UM
+    long = (np.maximum(*lengths) > _SHORT_UM) & (np.minimum(*lengths) > 0.0)  # one end stands at a corner
     rows = np.flatnonzero(long & (longer > _UNEVEN * shorter) & cut)
     if len(rows):
         row = int(rows[0])

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from parser.program import Program
     from parser.write.iso import IsoChoices, Unit
     from parser.write.pmac import PmacChoices
+    from sim.make.convert import Converted
     from sim.make.wanted import Language, Wanted
 
 _UNITS = click.Choice(["um", "mm", "inch"])
@@ -47,6 +48,7 @@ class _ConvertOptions(NamedTuple):
     crlf: bool
     pmac: Any
     card: Any
+    upper: Path | None
 
 
 @click.command(cls=Spoken)
@@ -79,6 +81,7 @@ class _ConvertOptions(NamedTuple):
 @click.option("--decimals", type=WholeNumber(1, 6))
 @click.option("--number-step", type=WholeNumber(0, 1000))
 @click.option("--tape/--no-tape", default=None)
+@click.option("--upper", type=FilePath(path_type=Path, dir_okay=False), metavar="FILE")
 @click.option("--pmac", type=click.Choice(["native", "gcode"]))
 @click.option("--card", type=click.Choice(["turbo", "power"]))
 @click.option("--crlf", is_flag=True)
@@ -91,6 +94,7 @@ def convert(path: Path, output: Path, **options: Any) -> None:
     drycut convert part.iso -o part.3b --offset D0=0.1mm
     drycut convert part.3b -o part-caxa.3b --form detailed
     drycut convert part.iso -o part.pmc
+    drycut convert lower.3b --upper upper.3b -o part.iso
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     from parser.findings.errors import ProgramError
     from parser.program import read_program
@@ -107,7 +111,8 @@ def convert(path: Path, output: Path, **options: Any) -> None:
     given = offsets_of(conversion.offset)
     tongue: Tongue = spoken()
     try:
-        program = _with_offset(read_program(path, _choices(conversion, language, given)), given, conversion.side)
+        program = _with_upper(read_program(path, _choices(conversion, language, given)), conversion.upper)
+        program = _with_offset(program, given, conversion.side)
         wanted = _wanted(conversion, language, program, given)
         done = converted(program, wanted)
     except ProgramError as error:
@@ -116,7 +121,7 @@ def convert(path: Path, output: Path, **options: Any) -> None:
         raise click.exceptions.Exit(2) from None
     width = width_of(outlet())
     if isinstance(done, Converted):
-        _write(path, output, done.data)
+        _write((path, conversion.upper), output, done)
         lines = converted_lines(done, output, wanted, tongue, width)
     else:
         lines = refused_lines(done, str(path), tongue, width)
@@ -187,6 +192,16 @@ def _with_offset(program: "Program", given: Offsets, side: str | None) -> "Progr
     return as_run(program, Offset((OffsetPass(given.plain),), SIDES[side]))
 
 
+def _with_upper(program: "Program", upper: Path | None) -> "Program":
+    """The program with the contour of another one at the top of the work."""
+    if upper is None:
+        return program
+    from sim.check.lean import with_upper
+    from sim.setup.taper import TaperSettings, read_upper
+
+    return with_upper(program, TaperSettings(upper=read_upper(upper)))
+
+
 def _wanted(options: _ConvertOptions, language: "Language", program: "Program", given: Offsets) -> "Wanted":
     from sim.make.wanted import Wanted
 
@@ -228,10 +243,17 @@ def _iso(options: _ConvertOptions, program: "Program") -> "IsoChoices":
     )
 
 
-def _write(path: Path, output: Path, data: bytes) -> None:
+def _write(sources: tuple[Path, Path | None], output: Path, done: "Converted") -> None:
+    """Write the program, and the one of its upper contour. BadParameter where that would take the place of a source."""
     from sim.base.files import staged
+    from sim.make.wanted import upper_file
 
-    if output.exists() and output.samefile(path):
-        raise click.BadParameter(Message("output-is-the-program-itself", output=output), param_hint="-o")
-    with staged(output.parent, [output.name]) as stage:
-        (stage / output.name).write_bytes(data)
+    texts = {output: done.data}
+    if done.upper_data is not None:
+        texts[upper_file(output)] = done.upper_data
+    for file in texts:
+        if file.exists() and any(file.samefile(source) for source in sources if source is not None):
+            raise click.BadParameter(Message("output-is-the-program-itself", output=file), param_hint="-o")
+    with staged(output.parent, [file.name for file in texts]) as stage:
+        for file, data in texts.items():
+            (stage / file.name).write_bytes(data)

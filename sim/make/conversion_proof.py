@@ -1,6 +1,7 @@
 """What a written text reads as, held against what it was written of: its path, its turns, stops, offsets and lean."""
 
 from collections import Counter
+from dataclasses import replace
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -38,7 +39,16 @@ def proof(draft: Draft, made: Written, read: Toolpath) -> Proof:
     differs = _differs(draft, made.row, read)
     if differs:
         return Proof(np.inf, differs)
-    return Proof(_off_um(draft, made.row, read), "" if _turns_alike(draft.curves, made.row, read) else "turns")
+    proven = _of_contour(draft, made.row, read)
+    if draft.upper is None or read.upper is None:
+        return proven
+    above = _of_contour(replace(draft, curves=draft.upper), made.row, read.upper)
+    return Proof(max(proven.off_um, above.off_um), proven.differs or above.differs)
+
+
+def _of_contour(draft: Draft, row: Ints, read: Curves) -> Proof:
+    """One contour beside its curves in a draft."""
+    return Proof(_off_um(draft, row, read), "" if _turns_alike(draft.curves, row, read) else "turns")
 
 
 def _differs(draft: Draft, row: Ints, read: Toolpath) -> str:
@@ -51,12 +61,12 @@ def _differs(draft: Draft, row: Ints, read: Toolpath) -> str:
         "stops": _stops_alike(draft, row, read),
         "events": not draft.events or _events_alike(draft.events, row, read),
         "offsets": _sides_alike(draft.compensation, row, read.compensation),
-        "leans": _leans_alike(draft.taper, row, read.taper),
+        "leans": _leans_alike(draft.taper, row, read.taper) and (draft.upper is None) == (read.upper is None),
     }
     return next((what for what, is_alike in alike.items() if not is_alike), "")
 
 
-def _off_um(draft: Draft, row: Ints, read: Toolpath) -> float:
+def _off_um(draft: Draft, row: Ints, read: Curves) -> float:
     """The largest distance: of ends, and of places on each curve from the one that it was written of.
 
     An end of a path that is meant as it stands may slide along it, where it runs smoothly on, by `_SLIDES_UM`: then it
@@ -94,7 +104,7 @@ def _distances(curves: Curves, place: Floats) -> Floats:
     return np.where(curves.is_arc, round_, np.where(length > 0.0, across, np.hypot(out[:, 0], out[:, 1])))
 
 
-def _turns_alike(curves: Curves, row: Ints, read: Toolpath) -> bool:
+def _turns_alike(curves: Curves, row: Ints, read: Curves) -> bool:
     """Whether what is written of each arc turns as far as it does: ends and distances do not know a turn from none."""
     turned = np.bincount(row, read.sweep_rad, minlength=len(curves))
     return bool((np.abs(turned - curves.sweep_rad) < np.pi).all())

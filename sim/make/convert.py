@@ -6,10 +6,13 @@ What a conversion loses, or writes otherwise, told before anybody misses it.
 """
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Final, NamedTuple
 
 import numpy as np
 
+from controller.taper.tilted import section_toolpath
+from controller.taper.two_contours import matched_offsets
 from parser.controller_words import Compensation, StepWords
 from parser.dialect.reader import Choices, Registers
 from parser.findings.codes import Severity
@@ -17,15 +20,16 @@ from parser.findings.errors import ProgramError
 from parser.findings.findings import Finding, Leans, NotSimulated, telling
 from parser.geometry.curves import CurveKind
 from parser.geometry.distance import distance_to_curves
-from parser.program import Program, load_program
+from parser.program import Program, load_program, paired
 from parser.toolpath import Toolpath
 from parser.units import mm
 from parser.write.draft import OF_THE_FAMILY, Draft, Written
 from parser.write.losses import CarriedOver, Loss, lost_words, some
 from sim.check.closures import OpenContour
+from sim.check.lean import own_offsets
 from sim.check.path_checks import Checked, Demands, run_checks
 from sim.make.conversion_proof import Proof, proof
-from sim.make.wanted import Wanted, carried_events, draft_for, read_with, written
+from sim.make.wanted import Wanted, carried_events, draft_for, read_with, written, written_above
 
 _ANGLES: Final = "AT"
 
@@ -131,7 +135,7 @@ class Converted(NamedTuple):
     Attributes
     ----------
     data
-        Bytes of its text.
+        Bytes of its text; of two contours in 3B that of the lower one.
     program, checked
         What reading them gives, and what its check finds.
     off_um, bound_um
@@ -150,6 +154,8 @@ class Converted(NamedTuple):
     stays_open
         Whether a check calls a contour open that is no more so than in its source. That of the source may be silent:
         where it compensates, leads are told from contours.
+    upper_data
+        Bytes of the text of the upper contour, in 3B; else None.
     """
 
     data: bytes
@@ -163,6 +169,7 @@ class Converted(NamedTuple):
     registers: Registers
     ramp_ms: int = 0
     stays_open: bool = False
+    upper_data: bytes | None = None
 
 
 class Refused(NamedTuple):
@@ -224,9 +231,10 @@ def _beside_the_path(program: Program, checked: Checked, wanted: Wanted) -> Refu
 
 
 def _keeps_lean(program: Program, checked: Checked, wanted: Wanted) -> bool:
-    """Whether the lean of a program can be written: by angles, in ISO, of blocks that stay what they are."""
-    has_path_of_its_own = wanted.keeps or checked.compensation is None
-    return wanted.iso is not None and program.toolpath.upper is None and has_path_of_its_own
+    """Whether ISO can say the lean of a program: two contours, or angles of blocks that stay what they are."""
+    if program.toolpath.upper is not None:
+        return wanted.language in {"3b", "iso"}
+    return wanted.iso is not None and (wanted.keeps or checked.compensation is None)
 
 
 def _word_for_word_or_not(
@@ -241,9 +249,14 @@ def _word_for_word_or_not(
 
 def _path(program: Program, checked: Checked, wanted: Wanted) -> Toolpath:
     """The path as programmed where compensation is kept, else with what the controller makes of it."""
-    if wanted.keeps or checked.compensation is None:
+    made = checked.compensation
+    if wanted.keeps or made is None:
         return program.toolpath
-    return checked.compensation.program.toolpath
+    top = own_offsets(program, made).top
+    if top is None:
+        return made.program.toolpath
+    both = matched_offsets(made.path, top.path)
+    return replace(section_toolpath(made.program.toolpath, both.lower, both.source_row), upper=both.upper)
 
 
 def _several_offsets(toolpath: Toolpath, wanted: Wanted) -> str:
@@ -259,9 +272,12 @@ def _proved(program: Program, path: Toolpath, draft: Draft, wanted: Wanted, *, i
     """The written program, or what speaks against it; its contours may be open where one of the source is."""
     made = written(draft, wanted)
     data = made.text.encode()
+    above = written_above(draft, wanted)
     choices = read_with(draft, wanted)
     try:
         back = load_program(data, f"{program.name} → {wanted.language}", choices)
+        if above is not None:
+            back = paired(back, load_program(above.text.encode(), back.name, choices))
     except ProgramError as error:
         return Refused("result", program, (error.finding,))
     checked = run_checks(back, Demands(may_stay_open=is_open))
@@ -282,7 +298,18 @@ def _proved(program: Program, path: Toolpath, draft: Draft, wanted: Wanted, *, i
     lost = losses(program, path, draft, made, wanted)
     stays_open = not closed and _is_called_open(back, checked)
     return Converted(
-        data, back, checked, proven.off_um, bound_um, lost, alone, open_um, choices.registers, made.ramp_ms, stays_open
+        data,
+        back,
+        checked,
+        proven.off_um,
+        bound_um,
+        lost,
+        alone,
+        open_um,
+        choices.registers,
+        made.ramp_ms,
+        stays_open,
+        None if above is None else above.text.encode(),
     )
 
 

@@ -2,6 +2,7 @@
 
 import re
 from dataclasses import replace
+from pathlib import Path
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -21,7 +22,8 @@ from parser.write.draft import (
 )
 from parser.write.iso import IsoChoices, iso_choices, registers_of, written_iso
 from parser.write.pmac import PmacChoices, blocks_of_text, ramp_of, written_pmac
-from parser.write.threeb import Form, ThreeBChoices, with_codes, written_3b
+from parser.write.threeb import Form, ThreeBChoices, with_codes, written_3b, written_pair
+from parser.write.two_contours import straightened
 
 Language = Literal["3b", "4b", "iso", "pmac"]
 _BOUND_STEPS = 3.0
@@ -34,6 +36,8 @@ _OFFSET_BOUND_UM = 1.5
 _PMAC_BOUND_UM = 1.0
 _INCHES = re.compile(r"G(?:20|70)(?!\d)", re.IGNORECASE)
 _PMAC_DECIMALS = 5
+_CHORD_STEPS = 0.5
+"""How far lines that stand for arcs beside U and V leave them, in steps of the text."""
 
 
 class Wanted(NamedTuple):
@@ -138,20 +142,48 @@ def _habitual_dwells(family: str) -> set[float]:
 
 
 def begun(draft: Draft, wanted: Wanted) -> Draft:
-    """A draft that begins as the dialect does that is written."""
-    by_rapid = wanted.iso is not None and wanted.iso.habits.starts_by == "rapid"
-    return with_rapid_to_start(draft) if by_rapid else draft
+    """A draft that begins as the dialect does that is written, and that its words of two contours can say."""
+    if wanted.iso is None:
+        return draft
+    if draft.upper is not None and wanted.iso.habits.two_contours == "uv":
+        draft = straightened(draft, _CHORD_STEPS * wanted.iso.step_um)
+    return with_rapid_to_start(draft) if wanted.iso.habits.starts_by == "rapid" else draft
 
 
 def written(draft: Draft, wanted: Wanted) -> Written:
-    """The text of a draft, its lines ended as wanted. SettingsError where the dialect cannot say what it needs."""
+    """The text of a draft, its lines ended as wanted. SettingsError where the dialect cannot say what it needs.
+
+    In 3B that of its lower contour.
+    """
     if wanted.iso is not None:
         made = written_iso(draft, wanted.iso)
     elif wanted.pmac is not None:
         made = _written_pmac(draft, wanted.pmac)
+    elif draft.upper is not None:
+        made, _ = written_pair(draft, _three_b(draft, wanted))
     else:
-        marks = curve_marks(draft.curves) if wanted.language == "4b" else None
-        made = written_3b(draft, ThreeBChoices(wanted.form, wanted.name, wanted.offset_um, marks))
+        made = written_3b(draft, _three_b(draft, wanted))
+    return _ended(made, wanted)
+
+
+def written_above(draft: Draft, wanted: Wanted) -> Written | None:
+    """The text of the upper contour of a draft, where the language has a text for each; else None."""
+    if draft.upper is None or wanted.iso is not None or wanted.pmac is not None:
+        return None
+    return _ended(written_pair(draft, _three_b(draft, wanted))[1], wanted)
+
+
+def upper_file(output: Path) -> Path:
+    """Where the upper contour is written, beside the lower one: ``part-upper.3b`` of ``part.3b``."""
+    return output.with_stem(f"{output.stem}-upper")
+
+
+def _three_b(draft: Draft, wanted: Wanted) -> ThreeBChoices:
+    marks = curve_marks(draft.curves) if wanted.language == "4b" else None
+    return ThreeBChoices(wanted.form, wanted.name, wanted.offset_um, marks)
+
+
+def _ended(made: Written, wanted: Wanted) -> Written:
     return made._replace(text=made.text.replace("\n", wanted.newline))
 
 

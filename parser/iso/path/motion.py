@@ -12,7 +12,7 @@ import numpy as np
 
 from parser.controller_words import Compensation, CompensationRules
 from parser.dialect.reader import Assumption, Choices, Damage
-from parser.findings.findings import Finding
+from parser.findings.findings import Finding, Stands
 from parser.geometry.curves import Bools, CurveKind, Curves, Floats, Ints
 from parser.geometry.near import distinct
 from parser.iso.listing.listing import Form, Listing
@@ -136,7 +136,8 @@ def _no_length(given: GivenColumns, runs: Ints, mode: Modes, path: Rows) -> Iter
     blocks, lines = given.listing.blocks, given.listing.lines
     for each in row[first].tolist():
         block = int(runs[path.at[each]])
-        yield lines.finding("ISO218", (int(blocks.first[block]), int(blocks.past[block])), each + 1)
+        span = int(blocks.first[block]), int(blocks.past[block])
+        yield lines.finding("ISO218", span, each + 1).with_fact(Stands())
 
 
 def _at_stop(given: GivenColumns, runs: Ints, path: Rows, row: Ints) -> Bools:

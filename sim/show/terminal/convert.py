@@ -14,7 +14,7 @@ from parser.toolpath import Toolpath
 from parser.units import mm
 from parser.write.losses import Loss
 from sim.make.convert import Converted, Refused
-from sim.make.wanted import Wanted
+from sim.make.wanted import Wanted, upper_file
 from sim.show.terminal.finding import finding_lines
 from sim.show.terminal.printer import painted, styled
 from sim.show.terminal.wrap import wrapped
@@ -37,7 +37,9 @@ def converted_lines(done: Converted, out: Path, wanted: Wanted, language: Langua
     """What was written, in lines of `width` cells."""
     words = Words(language)
     warnings = sum(finding.severity is Severity.WARNING for finding in done.checked.findings)
+    above = printable(str(upper_file(out)))
     texts = [
+        "" if done.upper_data is None else words("convert.upper", out=above),
         words("convert.off", off=f"{done.off_um:.3f}", bound=f"{done.bound_um:g}"),
         words("convert.finds", counts=numbered({"warning": warnings})) if warnings else "",
         words("convert.open", gap=f"{done.open_um:.0f}") if done.open_um else "",
