@@ -25,6 +25,8 @@ _UNEVEN: Final = 3.0
 other: a square beside a circle has 1.27, a slot beside its taper of 10° 1.5."""
 _SHORT_UM: Final = 500.0
 """Blocks that are shorter in both planes belong to corners."""
+_STANDS_UM: Final = 1.0
+"""What is shorter stands at a corner, but for rounding."""
 _HAIR_UM: Final = 1.0
 """By so much a path may leave the travel: the lower guide stands at whole steps."""
 _OFFSET_UM: Final = 1.0
@@ -46,7 +48,7 @@ def taper_findings(
     yield from _guides(program, path, guides)
     if table is not None and start_um is not None:
         yield from _travel(program, path, table, start_um)
-    yield from _uneven(program)
+    yield from _uneven(program, path)
     yield from _crossing(program, path)
 
 
@@ -134,27 +136,23 @@ def _travel(program: Program, path: TiltedPath, table: TableModel, start_um: tup
     )
 
 
-def _uneven(program: Program) -> Iterator[Finding]:
-    """3B706: one of two blocks that are run together is far longer than the other, by the size of their contours."""
-    if program.toolpath.upper is None:
+def _uneven(program: Program, path: TiltedPath) -> Iterator[Finding]:
+    """3B706: one of two blocks that are run together is far longer than the other, by the size of their contours.
+
+    A block that stands at a corner while its partner moves is meant so.
+    """
+    if path.angle_rad is not None:
         return
-    cut = ~program.toolpath.is_jump
-    lengths = [np.where(cut, of.length_um, 0.0) for of in (program.toolpath, program.toolpath.upper)]
-    sizes = [max(float(length.sum()), 1.0) for length in lengths]
-    lower, upper = (length / size for length, size in zip(lengths, sizes, strict=True))
+    rows, n = np.concatenate([np.zeros(0, dtype=np.int64), *path.loops]), len(program.toolpath)
+    lengths = [np.bincount(path.source_row[rows], of.length_um[rows], n) for of in path.faces]
+    lower, upper = (length / max(float(length.sum()), 1.0) for length in lengths)
     longer, shorter = np.maximum(lower, upper), np.minimum(lower, upper)
-    long = (np.maximum(*lengths) > _SHORT_UM) & (np.minimum(*lengths) > 0.0)  # one end stands at a corner
-    rows = np.flatnonzero(long & (longer > _UNEVEN * shorter) & cut)
-    if len(rows):
-        row = int(rows[0])
-        yield _at(
-            program,
-            "3B706",
-            row,
-            lower_mm=mm(float(lengths[0][row])),
-            upper_mm=mm(float(lengths[1][row])),
-            more=len(rows) - 1,
-        )
+    long = (np.maximum(*lengths) > _SHORT_UM) & (np.minimum(*lengths) > _STANDS_UM)
+    found = np.flatnonzero(long & (longer > _UNEVEN * shorter))
+    if len(found):
+        row = int(found[0])
+        values = {"lower_mm": mm(float(lengths[0][row])), "upper_mm": mm(float(lengths[1][row]))}
+        yield _at(program, "3B706", row, **values, more=len(found) - 1)
 
 
 def _crossing(program: Program, path: TiltedPath) -> Iterator[Finding]:

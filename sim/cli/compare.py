@@ -77,12 +77,12 @@ def compare(  # noqa: PLR0913 - click hands over each option by its name
     target = drawing_target(scenario.drawing, drawing, drawing_upper, settings)
     if target is None:
         raise click.MissingParameter(param_hint="DRAWING.dxf", param_type="argument")
+    program = _program(scenario)
     drawings = drawings_of(target)  # where an extra lacks, this says which has all
     from sim.run.report.drawing import document_text
     from sim.show.terminal.compare import print_comparison
     from sim.show.terminal.printer import write
 
-    program = _program(scenario)
     cut_offset, source = _offset(given.plain, program, scenario)
     done = _compared(program, scenario, cut_offset, target, drawings)
     if as_json:

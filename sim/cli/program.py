@@ -11,6 +11,8 @@ from sim.cli.spoken import Spoken, spoken
 from sim.cli.spoken.values import FilePath
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from parser.findings.catalogue import Language as Tongue
     from sim.make.cam.maker import MadeProgram, NotMade
     from sim.setup.making import Language, ToMake
@@ -99,7 +101,12 @@ def _written(made: "MadeProgram", request: _ProgramRequest, tongue: "Tongue", *,
     """The file that a proved program is written to, an unproved one with its findings by `force`; None if neither."""
     if not request.is_written or request.output is None or not (made.is_proved or force):
         return None
-    _write(request.output, made.data if made.is_proved else _with_findings(made, request, tongue))
+    from sim.make.wanted import upper_file
+
+    texts = {request.output: made.data if made.is_proved else _with_findings(made, request, tongue)}
+    if made.upper_data is not None:
+        texts[upper_file(request.output)] = made.upper_data
+    _write(request.output.parent, texts)
     return request.output
 
 
@@ -124,8 +131,9 @@ def _program_request(path: Path, output: Path | None, options: Options, *, is_wr
         writing=writing_of(own.writing, options),
     )
     refuse_misfits(to_make.writing, language, "drycut program")
+    above = () if to_make.making.upper is None else (to_make.making.upper,)
     if output is not None:
-        refuse_own_files(output, (file, *([path / "scenario.toml"] if path.is_dir() else [])))
+        refuse_own_files(output, (file, *above, *([path / "scenario.toml"] if path.is_dir() else [])))
     return _ProgramRequest(file, scenario, to_make, language, output, is_written)
 
 
@@ -195,11 +203,12 @@ def _with_findings(done: "MadeProgram", request: _ProgramRequest, tongue: "Tongu
     return remarked(done, [*against(done, tongue)], wanted).data
 
 
-def _write(output: Path, data: bytes) -> None:
+def _write(folder: Path, texts: "Mapping[Path, bytes]") -> None:
     from sim.base.files import staged
 
-    with staged(output.parent, [output.name]) as stage:
-        (stage / output.name).write_bytes(data)
+    with staged(folder, [file.name for file in texts]) as stage:
+        for file, data in texts.items():
+            (stage / file.name).write_bytes(data)
 
 
 def _draw(done: "MadeProgram", picture: _Picture, tongue: "Tongue") -> None:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeVar, get_args
 
 import click
 
-from parser.findings.errors import Message
+from parser.findings.errors import Message, SettingsError
 from sim.cli.options import (
     TAPER_OPTIONS,
     WRITTEN_IN,
@@ -105,6 +105,7 @@ class Options(NamedTuple):
     drawing: Mapping[str, Any]
     proof: Mapping[str, Any]
     taper: TaperOptions
+    upper: Path | None
 
 
 def options_of(options: dict[str, Any]) -> Options:
@@ -113,12 +114,16 @@ def options_of(options: dict[str, Any]) -> Options:
     for key in OF_PROOF:
         if key.name in proof:
             key.of_option(proof[key.name])
+    taper = taken_taper(options)
+    if taper.upper is not None and taper.taper:
+        raise SettingsError("taper-angle-and-upper", where="--upper")
     return Options(
         making=taken_settings(_OF_MAKING, options),
         writing=taken_settings(_OF_WRITING, options),
         drawing=taken_settings(OF_DRAWING, options),
         proof=proof,
-        taper=taken_taper(options),
+        taper=taper._replace(upper=None),  # a drawing here
+        upper=taper.upper,
         **options,
     )
 
@@ -133,6 +138,7 @@ def making_of(own: "Making", options: Options) -> "Making":
         "passes_um": _passes(options),
         "returning": "one-way" if options.one_way else None,
         "layers": options.on_layer or None,
+        "upper": options.upper,
     }
     making = own._replace(**{name: value for name, value in given.items() if value is not None})
     refuse_odd(making, "drycut program")

@@ -126,6 +126,9 @@ class Making(NamedTuple):
         that stays straight.
     layers
         What is asked for some layers.
+    upper
+        Drawing of the contours at the top of the work; those of the drawing itself are at the bottom then. None for
+        one drawing.
     """
 
     tolerance_um: float = DEFAULT_FIT_UM
@@ -154,6 +157,7 @@ class Making(NamedTuple):
     common_edges: bool = False
     lag_um: float = 0.0
     layers: tuple[LayerWish, ...] = ()
+    upper: Path | None = None
 
     @property
     def in_rounds(self) -> bool:

@@ -3,6 +3,9 @@
 At a height z a wall that leans by T stands d = |z − p| tan T beside the contour as it is drawn in the program plane p.
 So no place of the edge there is nearer to that contour than d, and d straight beside a place of the contour there is an
 edge, wherever nothing else of the contour is nearer. Neither asks how a corner is made, nor knows how the path was.
+
+Between two drawings a wall is ruled: at a height it is the section of the surface between partners, and at the top the
+drawing of the top itself.
 """
 
 from collections.abc import Iterator, Sequence
@@ -16,11 +19,13 @@ from parser.geometry.curves import Floats
 from parser.toolpath import Point
 from parser.units import mm
 from sim.cut.pieces.kept_edges import kept_shapes
+from sim.cut.pieces.pieces import Pieces
 from sim.cut.solids import Section, TiltedCut
 from sim.make.cam.leaning import grows_upwards
 from sim.make.cam.model import CutPlan
 from sim.make.cam.proof_model import Fault, WallOff
 from sim.make.cam.target import Target
+from sim.measure.compare.rings import polygon
 from sim.setup.taper import TaperSettings
 
 _PLACES_UM: Final = 100.0
@@ -30,6 +35,10 @@ _SWALLOWED_UM: Final = 0.5
 """A place straight beside the contour that lies so much nearer to another part of it is within a corner."""
 _ALIKE: Final = 0.5
 """An edge is that of a contour where both have at least this share of their areas in common."""
+_FAR_MITRE: Final = 50.0
+"""How far corners of a wall are prolonged at most, in offsets."""
+_QUARTER: Final = 64
+"""Lines of a quarter of a round."""
 _MITRE: Final = 4.0
 """Corners that turn by up to 145° are extended to where their walls meet, 3.33 d away."""
 
@@ -49,6 +58,46 @@ def walls_off(cut: TiltedCut, plan: CutPlan, target: Target) -> Iterator[WallOff
             yield from _at_height(section, by_um, plan, target, taper)
 
 
+def ruled_walls_off(
+    cut: TiltedCut, plan: CutPlan, target: Target, top: Sequence[shapely.Polygon], reach_um: float
+) -> Iterator[WallOff]:
+    """How far the walls between two drawings lie off at each height but that of the lower one, as `walls_off` has them.
+
+    `top` are the contours of the drawing of the top, as drawn. What a round wire cannot reach in a corner is no fault.
+    """
+    for section in cut.sections:
+        if section.pieces is None or not section.z_um:
+            continue
+        edges = _edges(section.pieces)
+        for at in target.cut.tolist():
+            figure = plan.cuts[at].figure
+            wall = polygon(plan.facings[at].ruled(cut.path.heights.work_um).section(section.z_um)[0])
+            if section.z_um == cut.path.heights.work_um:
+                wall = _most_alike(np.array(top), wall) or wall
+            edge = _most_alike(edges, wall)
+            if edge is None:
+                yield WallOff(figure.number, section.z_um, np.inf, Point(0.0, 0.0))
+                continue
+            # The wire's way, prolonged round corners, and from there what a round wire leaves.
+            by_um = -reach_um if figure.runs_inside else reach_um
+            reached = wall.buffer(by_um, join_style="mitre", mitre_limit=_FAR_MITRE).buffer(-by_um, quad_segs=_QUARTER)
+            off_um, where = _apart(edge.exterior, shapely.Polygon(reached.exterior).exterior)
+            yield WallOff(figure.number, section.z_um, off_um, Point(*where.tolist()))
+
+
+def _apart(edge: shapely.LinearRing, wall: shapely.LinearRing) -> tuple[float, Floats]:
+    """How far two rings lie apart at most, from each to the other, and where."""
+    places = [_places(edge), _places(wall)]
+    off = np.concatenate([_distance(places[0], wall), _distance(places[1], edge)])
+    worst = int(np.argmax(off))
+    return float(off[worst]), np.concatenate(places)[worst]
+
+
+def _edges(pieces: Pieces) -> NDArray[np.object_]:
+    """The edges that a cut leaves, as polygons."""
+    return np.array([shapely.Polygon(shape.outline_um.exterior) for shape in kept_shapes(pieces)])
+
+
 def wall_faults(walls: Sequence[WallOff], bound_um: float) -> Iterator[Fault]:
     """The worst height of each figure whose walls lie farther off than a bound."""
     worst = {wall.figure: wall for wall in sorted(walls, key=lambda wall: wall.off_um)}  # the farthest is entered last
@@ -65,7 +114,7 @@ def _at_height(
     section: Section, by_um: float, plan: CutPlan, target: Target, taper: TaperSettings
 ) -> Iterator[WallOff]:
     assert section.pieces is not None  # noqa: S101 - asked before
-    edges = np.array([shapely.Polygon(shape.outline_um.exterior) for shape in kept_shapes(section.pieces)])
+    edges = _edges(section.pieces)
     for drawn, at in zip(target.shapes, target.cut.tolist(), strict=True):
         figure_cut = plan.cuts[at]
         number, out_um = figure_cut.figure.number, by_um if grows_upwards(figure_cut, taper) else -by_um

@@ -70,16 +70,16 @@ def _widened(passes_um: tuple[float, ...], cosine: float) -> tuple[float, ...]:
 
 def refuse_upright_ways(making: Making, wanted: Wanted, scenario: Scenario) -> None:
     """CannotCutError for what is known of upright wires alone."""
-    taper = scenario.taper
-    if taper is not None and taper.upper is not None:
-        raise CannotCutError(Refusal("taper-upper"))
-    if lean_of(scenario) is None:
+    is_two = making.upper is not None
+    if lean_of(scenario) is None and not is_two:
         return
     misfits = {
-        "taper-kept": wanted.keeps or (bool(making.passes_um) and not all(making.passes_um)),
+        "taper-kept": (wanted.keeps and not is_two) or (bool(making.passes_um) and not all(making.passes_um)),
         "taper-lag": bool(making.lag_um),
         "taper-common": making.common_edges,
         "taper-coreless": making.no_core,
+        "upper-4b": is_two and wanted.language == "4b",
+        "upper-tab": is_two and bool(making.tab_um or making.slug_tab_um or making.overcut_um),
     }
     for why, is_wanted in misfits.items():
         if is_wanted:

@@ -16,9 +16,10 @@ from parser.drawing.model import DEFAULT_FLATTEN_UM, Drawing
 from parser.drawing.read import read_drawing
 from parser.findings.catalogue import Remark
 from parser.findings.errors import SettingsError
-from parser.program import Program, load_program
+from parser.program import Program, load_program, paired
 from parser.text.encoding import printable
 from parser.toolpath import Toolpath
+from parser.units import from_mm
 from parser.write.draft import Draft, Written
 from sim.base.progress import Progress, silent
 from sim.make.cam.compensated_draft import added_draft, draft_of_cuts, draft_of_plan, kept_draft
@@ -30,6 +31,7 @@ from sim.make.cam.proof import ToProve, proved
 from sim.make.cam.proof_model import Proof
 from sim.make.cam.proof_run import least_um
 from sim.make.cam.target import target_of
+from sim.make.cam.two_drawings import draft_of_both, facing_notes
 from sim.make.conversion_proof import Proof as HeldAgainst
 from sim.make.conversion_proof import proof as held_against
 from sim.make.wanted import (
@@ -38,6 +40,7 @@ from sim.make.wanted import (
     encoded,
     read_with,
     written,
+    written_above,
 )
 from sim.measure.compare.compare import compare_program
 from sim.measure.compare.result import FitRequest
@@ -106,6 +109,8 @@ class MadeProgram(NamedTuple):
         The drawing without the fit of arcs; None where it was not read so.
     unled
         The same program for a wire that does not lag: the way of the wire where the program leads guides; else None.
+    upper_data
+        Bytes of the text of its upper contour, where that has one of its own, as in 3B; else None.
     """
 
     data: bytes
@@ -116,6 +121,7 @@ class MadeProgram(NamedTuple):
     proof: Proof | None = None
     drawn: Drawing | None = None
     unled: Program | None = None
+    upper_data: bytes | None = None
 
     @property
     def wire_way(self) -> Toolpath:
@@ -210,7 +216,8 @@ def _proved(request: PlanRequest, wanted: Wanted) -> MadeProgram | NotMade:
     done = _with_drawn(done, request)
     assert done.drawn is not None  # noqa: S101 - read before
     wire_way = None if done.unled is None else done.unled.toolpath
-    given = ToProve(done.program, done.plan, done.drawn, done.written, wanted.bound_um, wire_way)
+    above = _drawn_above(request)
+    given = ToProve(done.program, done.plan, done.drawn, done.written, wanted.bound_um, wire_way, above)
     return done._replace(proof=proved(given, request.scenario, request.progress))
 
 
@@ -248,12 +255,14 @@ def _fitted(request: PlanRequest, wanted: Wanted, fit_um: float) -> MadeProgram:
     """A program whose arcs are fitted within `fit_um`. CannotCutError where there is none, or its language has none."""
     plan = planned(request, fit_um)
     request.progress("write", 0, 1)
-    plan = plan._replace(notes=(*plan.notes, *_own_codes(wanted), *lean_notes(plan, wanted)))
+    plan = plan._replace(notes=(*plan.notes, *_own_codes(wanted), *lean_notes(plan, wanted), *facing_notes(plan)))
     plan = plan._replace(is_added=wanted.keeps and wanted.language == "4b" and any(plan.passes_um))
-    draft = begun(_drafted(plan, wanted), wanted)
+    draft = begun(_drafted(plan, wanted, from_mm(request.scenario.thickness_mm)), wanted)
     text, program = _read_back(draft, request.path.stem, wanted)
     off = held_against(draft, text, program.toolpath)
-    made = MadeProgram(encoded(text.text, wanted), program, plan, draft, off)
+    above = written_above(draft, wanted)
+    upper_data = None if above is None else encoded(above.text, wanted)
+    made = MadeProgram(encoded(text.text, wanted), program, plan, draft, off, upper_data=upper_data)
     if not plan.making.lag_um:
         return made
     _, unled = _read_back(begun(draft_of_cuts(plan.visits, plan.cuts), wanted), request.path.stem, wanted)
@@ -263,8 +272,16 @@ def _fitted(request: PlanRequest, wanted: Wanted, fit_um: float) -> MadeProgram:
 def _read_back(draft: Draft, name: str, wanted: Wanted) -> tuple[Written, Program]:
     """The text of a draft, and the program that reading it gives."""
     text = written(draft, wanted)
-    data = text.text.encode(wanted.encoding, "replace")
-    return text, load_program(data, f"{name}.{wanted.language}", read_with(draft, wanted))
+    return text, _read(text.text, f"{name}.{wanted.language}", draft, wanted)
+
+
+def _read(text: str, name: str, draft: Draft, wanted: Wanted) -> Program:
+    """The program of the text of a draft, with its upper contour where that has a text of its own."""
+    data, choices = text.encode(wanted.encoding, "replace"), read_with(draft, wanted)
+    program, above = load_program(data, name, choices), written_above(draft, wanted)
+    if above is None:
+        return program
+    return paired(program, load_program(above.text.encode(wanted.encoding, "replace"), name, choices))
 
 
 def _is_surely_within(done: MadeProgram) -> bool:
@@ -293,23 +310,34 @@ def _with_drawn(done: MadeProgram, request: PlanRequest) -> MadeProgram:
     plan = done.plan
     if plan.drawing.fit is None:
         return done._replace(drawn=plan.drawing)
-    flatten_um = min(DEFAULT_FLATTEN_UM, _FLATTEN_SHARE * plan.making.tolerance_um)
-    making = plan.making
-    drawn = read_drawing(request.path, making.layer, making.gap_um, flatten_um, unit=making.unit)
-    return done._replace(drawn=as_cut(drawn, making, request.scenario))
+    drawn = _unfitted(request.path, plan.making)
+    return done._replace(drawn=as_cut(drawn, plan.making, request.scenario))
 
 
-def _drafted(plan: CutPlan, wanted: Wanted) -> Draft:
-    """What is written of a plan. CannotCutError where the controller cannot add its offsets."""
+def _drawn_above(request: PlanRequest) -> Drawing | None:
+    """The drawing of the top without the fit of arcs; None of one drawing."""
+    return None if request.making.upper is None else _unfitted(request.making.upper, request.making)
+
+
+def _unfitted(path: Path, making: Making) -> Drawing:
+    flatten_um = min(DEFAULT_FLATTEN_UM, _FLATTEN_SHARE * making.tolerance_um)
+    return read_drawing(path, making.layer, making.gap_um, flatten_um, unit=making.unit)
+
+
+def _drafted(plan: CutPlan, wanted: Wanted, height_um: float) -> Draft:
+    """What is written of a plan for work of a height. CannotCutError where the controller cannot add its offsets."""
     if plan.making.lag_um:
         _refuse_unknown_ways(plan, wanted)
-    if not wanted.keeps or not any(plan.passes_um):
+    if not plan.facings and (not wanted.keeps or not any(plan.passes_um)):
         draft = draft_of_plan(plan)
         return draft if wanted.iso is None else replace(draft, taper=angle_words(plan, draft.curves))
     wishes = tuple(wish._replace(passes_um=(0.0,) * len(wish.passes_um)) for wish in plan.making.layers)
     making = plan.making._replace(layers=wishes)
     nothing = (0.0,) * len(plan.passes_um)
     on_contour = tuple(figure_cut(cut.figure, cut.thread, nothing, making) for cut in plan.cuts)
+    if plan.facings:
+        rules = wanted.iso.profile.rules if wanted.keeps and wanted.iso is not None else None
+        return draft_of_both(plan, on_contour, rules, height_um)
     if wanted.iso is None:
         return added_draft(plan, on_contour)
     return kept_draft(plan, on_contour, wanted.iso.profile.rules)
@@ -335,8 +363,7 @@ def remarked(done: MadeProgram, texts: Sequence[str], wanted: Wanted) -> MadePro
     lines = [_remark(text, is_iso=wanted.iso is not None) for text in texts]
     first, newline, rest = done.program.text.partition(wanted.newline)
     text = newline.join([first, *lines, rest])
-    data = text.encode(wanted.encoding, "replace")
-    program = load_program(data, done.program.name, read_with(done.draft, wanted))
+    program = _read(text, done.program.name, done.draft, wanted)
     return done._replace(data=encoded(text, wanted), program=program)
 
 

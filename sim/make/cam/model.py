@@ -12,6 +12,7 @@ from parser.drawing.model import Drawing, Entity, LeftOut
 from parser.findings.catalogue import Remark
 from parser.geometry.curves import Curves, Floats, Ints, extents
 from parser.toolpath import Point
+from sim.make.cam.facing import Facing
 from sim.setup.making import LeadIn, Making, SideWish
 from sim.setup.taper import TaperSettings
 
@@ -320,7 +321,8 @@ class CutPlan(NamedTuple):
 
     `cuts` stand in the order of the figures, `visits` in that in which the wire runs over them.
     `is_added`: the controller adds the offset, and the program, in 4B, does not say it. `taper` is the lean of all
-    contours, None of an upright wire.
+    contours, None of an upright wire. `facings` are the partners of each cut's contour in a second drawing, that of the
+    top of the work; empty without one.
     """
 
     drawing: Drawing
@@ -333,6 +335,7 @@ class CutPlan(NamedTuple):
     visits: tuple[Visit, ...] = ()
     is_added: bool = False
     taper: TaperSettings | None = None
+    facings: tuple[Facing, ...] = ()
 
     @property
     def of_contour(self) -> tuple[int, ...]:

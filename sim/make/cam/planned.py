@@ -9,8 +9,10 @@ from parser.drawing.model import Drawing
 from parser.drawing.read import read_drawing
 from sim.base.progress import Progress, silent
 from sim.make.cam.apart import moved_apart
+from sim.make.cam.chosen import USUAL_LEAD_UM
 from sim.make.cam.contacts import walls
 from sim.make.cam.coreless import coreless
+from sim.make.cam.facing import Facing
 from sim.make.cam.leaning import in_plane, lean_of, wall_shift_um
 from sim.make.cam.model import (
     CannotCutError,
@@ -30,6 +32,7 @@ from sim.make.cam.parts import parts_of
 from sim.make.cam.passes import figure_cut, offsets_of
 from sim.make.cam.picks import spare_notes
 from sim.make.cam.threads import thread_notes, threads_of
+from sim.make.cam.two_drawings import facings_of
 from sim.make.cam.visits import visited
 from sim.setup.making import Making
 from sim.setup.scenario import Scenario
@@ -68,17 +71,28 @@ def planned(request: PlanRequest, fit_um: float | None = None) -> CutPlan:
     parts = parts_of(drawing, making)
     refuse_strange_layers(parts.figures, making)
     parts = parts.without(at_fault)
+    facings = _facings(parts, making, fit_um)
+    moved_um = max((each.most_aside_um() for each in facings.values()), default=wall_shift_um(scenario))
     while True:
         try:
-            plan = _plan_of(drawing, parts, making, scenario, whole)
+            plan = _plan_of(drawing, parts, making, scenario, whole, moved_um)
             plan = coreless(plan, with_core) if making.no_core else plan
             cuts, visits = visited(plan.cuts, making)
-            return plan._replace(cuts=cuts, visits=visits, taper=lean_of(given))
+            faced = tuple(facings[cut.figure.number] for cut in cuts) if facings else ()
+            return plan._replace(cuts=cuts, visits=visits, taper=lean_of(given), facings=faced)
         except CannotCutError as error:
             rest = parts.without(error.refusals)
             if len(rest.figures) in {0, len(parts.figures)}:
                 raise
             parts = rest
+
+
+def _facings(parts: Parts, making: Making, fit_um: float) -> dict[int, Facing]:
+    """The figures with their partners in the drawing of the top, by their numbers; none without such a drawing."""
+    if making.upper is None:
+        return {}
+    above = read_drawing(making.upper, making.layer, making.gap_um, fit_um=fit_um, unit=making.unit)
+    return facings_of(parts.figures, parts_of(above, making._replace(picks=())).figures)
 
 
 def as_cut(drawing: Drawing, making: Making, scenario: Scenario) -> Drawing:
@@ -91,17 +105,20 @@ def _passes_um(making: Making, scenario: Scenario) -> tuple[float, ...]:
     return making.passes_um or (scenario.wire.reach_um,)
 
 
-def _plan_of(
-    drawing: Drawing, parts: Parts, making: Making, scenario: Scenario, whole: frozenset[int] = frozenset()
+def _plan_of(  # noqa: PLR0913, PLR0917 - what is cut, how, and how its walls lean
+    drawing: Drawing, parts: Parts, making: Making, scenario: Scenario, whole: frozenset[int], moved_um: float
 ) -> CutPlan:
-    """How some parts are cut. CannotCutError where they cannot be, or some of them."""
+    """How some parts are cut, whose walls lie by as much beside them at other heights.
+
+    CannotCutError where they cannot be, or some of them.
+    """
     passes_um = _passes_um(making, scenario)
     figures = with_sides(parts.figures, making)
     widest_um = [max(offsets_of(figure, passes_um, making)) for figure in figures]
     notes = (*parts.notes, *walls(figures, widest_um, scenario.wire.reach_um))
     nests = nests_of(figures, making, passes_um[0], whole)
     in_kerf = {at: each.thread for at, each in nests.in_kerf.items()}
-    threads = _threads(drawing, figures, making, scenario, max(widest_um), in_kerf)
+    threads = _threads(drawing, figures, making, moved_um, max(widest_um), in_kerf)
     notes += (*nests.notes, *thread_notes(figures, threads, making))
     notes += tuple(spare_notes(drawing, list(zip(figures, threads, strict=True)), making.spared))
     order = nests.in_order(in_order(figures, threads, making))
@@ -114,7 +131,7 @@ def _threads(  # noqa: PLR0913, PLR0917 - as `threads_of` has them, with the lea
     drawing: Drawing,
     figures: Sequence[Figure],
     making: Making,
-    scenario: Scenario,
+    moved_um: float,
     widest_um: float,
     in_kerf: Mapping[int, Thread],
 ) -> tuple[Thread, ...]:
@@ -123,10 +140,10 @@ def _threads(  # noqa: PLR0913, PLR0917 - as `threads_of` has them, with the lea
     Where walls lean, contours come nearer to thread points at other heights, and a lead that is shorter than that cuts
     into the part. Where there is no room for as much, the proof says whether it does.
     """
-    moved_um = wall_shift_um(scenario)
     if moved_um:
+        longer = making if making.lead_um is not None else making._replace(lead_um=USUAL_LEAD_UM + moved_um)
         with suppress(CannotCutError):
-            return threads_of(drawing, figures, making, widest_um + moved_um, in_kerf)
+            return threads_of(drawing, figures, longer, widest_um + moved_um, in_kerf)
     return threads_of(drawing, figures, making, widest_um, in_kerf)
 
 

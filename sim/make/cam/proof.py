@@ -23,11 +23,11 @@ from parser.toolpath import Point, Toolpath
 from parser.units import mm
 from sim.base.progress import Progress, silent
 from sim.cut.pieces.pieces import Piece, Pieces
-from sim.make.cam.heights import wall_faults, walls_off
+from sim.make.cam.heights import ruled_walls_off, wall_faults, walls_off
 from sim.make.cam.model import CutPlan, FigureCut, NotProved, with_sides
-from sim.make.cam.proof_model import Faces, Fault, Proof
+from sim.make.cam.proof_model import Faces, Fault, Proof, WallOff
 from sim.make.cam.proof_run import AsRun, as_run
-from sim.make.cam.target import Target, target_of
+from sim.make.cam.target import Target, closed_shapes, target_of
 from sim.make.cam.visits import figure_rows
 from sim.make.conversion_proof import Proof as Written
 from sim.measure.compare.compare import compare_program
@@ -109,7 +109,8 @@ class ToProve(NamedTuple):
     """What is proved: a program that was read back, the plan that it was written of, and its drawing, unfitted.
 
     `written` says how far the program's path lies off the plan's, of which whole steps explain `rounding_um`.
-    `wire_way` is where the wire is to cut, where the program leads guides that it lags behind; else None.
+    `wire_way` is where the wire is to cut, where the program leads guides that it lags behind; else None. `above` is
+    the drawing of the top, unfitted; None of one drawing.
     """
 
     program: Program
@@ -118,6 +119,7 @@ class ToProve(NamedTuple):
     written: Written
     rounding_um: float
     wire_way: Toolpath | None = None
+    above: Drawing | None = None
 
 
 def proved(given: ToProve, scenario: Scenario, progress: Progress = silent) -> Proof:
@@ -142,7 +144,7 @@ def proved(given: ToProve, scenario: Scenario, progress: Progress = silent) -> P
         return ran
     path, of_path = _path(given, target, run, how)
     cut, of_cut = _as_cut(given, target, run, how)
-    walls = () if run.tilted is None else tuple(walls_off(run.tilted, plan, target))
+    walls = tuple(_walls(given, target, run, how))
     faces = _faces(given, target, scenario, how)
     done = ran._replace(
         path=path,
@@ -155,6 +157,16 @@ def proved(given: ToProve, scenario: Scenario, progress: Progress = silent) -> P
         faces=faces,
     )
     return done._replace(at_fault=_at_fault(done, run, of_cut.findings, plan))
+
+
+def _walls(given: ToProve, target: Target, run: DryRun, how: AsRun) -> Iterator[WallOff]:
+    """How far the walls of a leaning cut lie off at all heights; none of an upright one."""
+    if run.tilted is None:
+        return
+    if given.above is None:
+        yield from walls_off(run.tilted, given.plan, target)
+        return
+    yield from ruled_walls_off(run.tilted, given.plan, target, closed_shapes(given.above), how.scenario.wire.reach_um)
 
 
 def _of_run(run: DryRun, how: AsRun) -> tuple[tuple[Finding, ...], tuple[Remark, ...]]:

@@ -43,6 +43,12 @@ class Target(NamedTuple):
     gap_um: float
 
 
+def closed_shapes(drawn: Drawing) -> tuple[shapely.Polygon, ...]:
+    """The closed contours of a drawing as polygons."""
+    closed = (loop for loop in drawn.loops if loop.closed)
+    return tuple(polygon(running(drawn.curves, loop.row, loop.backwards)) for loop in closed)
+
+
 def target_of(drawn: Drawing, plan: CutPlan) -> tuple[Target | None, tuple[Fault, ...]]:
     """The contours of a drawing that a plan cuts, None where it cuts none; and what of the two is not in the other."""
     closed = [loop for loop in drawn.loops if loop.closed]

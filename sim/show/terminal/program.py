@@ -21,6 +21,7 @@ from sim.make.cam.document import FigureSum, figure_sums
 from sim.make.cam.maker import MadeProgram, NotMade
 from sim.make.cam.model import CutPlan, FigureCut
 from sim.make.cam.proof_model import Proof
+from sim.make.wanted import upper_file
 from sim.show.refusals import place_text, places_said, why_refused
 from sim.show.terminal.finding import finding_lines
 from sim.show.terminal.layout import show, table
@@ -155,10 +156,18 @@ def print_made(done: MadeProgram, name: Path, where: str, picture: Path | None, 
     for text in to_check(done.plan, language):
         for line in wrapped(text, width, "", _INDENT):
             say(styled(line, COLOURS["to-check"]))
+    for text in _became(done, name, where, picture, words):
+        for line in wrapped(text, width, "", _INDENT):
+            say(line)
+
+
+def _became(done: MadeProgram, name: Path, where: str, picture: Path | None, words: Words) -> Iterator[str]:
+    """What became of a program and its picture, and where its upper contour stands."""
     if picture is not None:
-        say(words("program.written", out=picture))
-    for line in wrapped(words(f"program.{where}", out=name), width, "", _INDENT):
-        say(line)
+        yield words("program.written", out=picture)
+    yield words(f"program.{where}", out=name)
+    if done.upper_data is not None and where in {"written", "forced"}:
+        yield words("convert.upper", out=printable(str(upper_file(name))))
 
 
 def to_check(plan: CutPlan, language: Language) -> Iterator[str]:
