@@ -50,6 +50,32 @@ def test_u_and_v_are_those_of_the_step_along_a_draft(open_page: OpenPage) -> Non
         assert told_uv(page) == pytest.approx((200.0 * math.tan(math.radians(3.0)), 0.0), abs=2e-3)
 
 
+def test_the_table_shows_both_contours_in_their_colours(open_page: OpenPage) -> None:
+    """Round on square: on the circle of 8 mm at 22.5°, and on the side of the square beside the path's own line."""
+    page = open_page(page_of("taper-round-on-square"), lang="en").page
+    page.evaluate("drycut.player.ready")
+    page.evaluate("drycut.player.seekStep(0)")
+    told_uv(page)
+    found = page.evaluate(
+        """() => {
+            const table = document.getElementById("table");
+            const ratio = table.width / table.clientWidth;
+            const pen = table.getContext("2d");
+            const { view } = drycut.player;
+            const seen = ([x, y]) => {
+                const [px, py] = [view.toX(x) * ratio, view.toY(y) * ratio].map(Math.round);
+                const bytes = [...pen.getImageData(px - 2, py - 2, 5, 5).data];
+                return bytes.map((byte) => byte.toString(16).padStart(2, "0"));
+            };
+            const shade = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+            return { on: seen([8000 * Math.cos(Math.PI / 8), 8000 * Math.sin(Math.PI / 8)]), top: shade("--top") };
+        }"""
+    )
+    pixels = ["#" + "".join(found["on"][at : at + 3]) for at in range(0, len(found["on"]), 4)]
+    assert found["top"] in pixels
+    assert page.locator(".legend .top, .legend .bottom").count() == 2
+
+
 def test_walls_turn_by_keys_and_the_replay_stays_where_it_is(open_page: OpenPage) -> None:
     page = open_page(page_of("taper-cone"), lang="en").page
     page.evaluate("drycut.player.ready")

@@ -16,7 +16,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from parser.geometry.curves import Floats, Ints
+from parser.geometry.curves import CurveKind, Curves, Floats, Ints
 from sim.measure.compare.starts import laid_loops
 from sim.run.course import Course, Moment
 from sim.setup.scenario import Scenario
@@ -80,7 +80,7 @@ def draw_behind(canvas: Canvas, page: Page, paint: Paint) -> None:
 
 
 def draw_path(canvas: Canvas, page: Page, course: Course, drawing: Iterable[Floats]) -> None:
-    """Draw the lines of the `drawing`, the ideal path, its jumps and its start.
+    """Draw the lines of the `drawing`, the ideal path, its jumps and its start; of a leaning wire both contours.
 
     Near by, the way of the wire and the single steps show too.
     """
@@ -89,6 +89,10 @@ def draw_path(canvas: Canvas, page: Page, course: Course, drawing: Iterable[Floa
     with canvas.clipped(room):
         for loop in drawing:
             _draw_run(canvas, loop, page, Paint.DRAWING, style.CONTOUR_WIDTH)
+        for face, paint in zip(faces_of(course), (Paint.BOTTOM, Paint.TOP), strict=False):  # none of an upright wire
+            places_um, of = flatten(face, CHORD_PX / view.px_per_um)
+            for run in cut_runs(places_um, of, face.kind == CurveKind.JUMP):
+                _draw_run(canvas, run, page, paint, style.ACTUAL_WIDTH)
         for run in cut_runs(points_um, row, toolpath.is_jump):
             _draw_run(canvas, run, page, Paint.GREY, style.IDEAL_WIDTH)
         for jump in np.stack([toolpath.start_um, toolpath.end_um], axis=1)[toolpath.is_jump]:
@@ -101,6 +105,12 @@ def draw_path(canvas: Canvas, page: Page, course: Course, drawing: Iterable[Floa
         if view.px_per_um >= STEPS_FROM:
             _draw_steps(canvas, page, course)
         draw_start(canvas, view.to_px(toolpath.start_um[0]), unit)
+
+
+def faces_of(course: Course) -> tuple[Curves, ...]:
+    """The contours at the bottom and the top of the work that a leaning wire cuts; none of an upright one."""
+    cut = course.run.tilted
+    return () if cut is None else cut.path.faces
 
 
 def drawing_um(course: Course, view: View) -> list[Floats]:

@@ -29,7 +29,18 @@ from sim.show.draw.style import (
     ThemeName,
 )
 from sim.show.film.readout import Line, bar_of, draw_strip, read_out, x_px
-from sim.show.film.scene import Layout, PieceDrawn, Pixels, Plate, Scene, fate, layout_for, outlines_um, plate_over
+from sim.show.film.scene import (
+    Layout,
+    PieceDrawn,
+    Pixels,
+    Plate,
+    Scene,
+    faces_of,
+    fate,
+    layout_for,
+    outlines_um,
+    plate_over,
+)
 from sim.show.pictures.cut.subject import Bodies
 from sim.show.texts import Words
 
@@ -147,6 +158,9 @@ def draw_film_legend(canvas: Canvas, box: Box, unit: float, entries: list[Entry]
         draw_legend(canvas, legend, box.left, top)
 
 
+_FACES: Final = (("taper.upper-contour", Paint.TOP), ("taper.lower-contour", Paint.BOTTOM))
+
+
 def film_entries(say: Words, passes: int, *, wider: bool, drawing: bool, pieces: bool) -> list[Entry]:
     """What a frame shows: the kerf, `wider` than it is where it would not show, and maybe a drawing and free `pieces`.
 
@@ -256,6 +270,8 @@ class Screen:
             passes = max((among for _, among in self._course.passes), default=1)
             drawing, pieces = self._course.run.comparison is not None, bool(self._course.pieces)
             entries = film_entries(self._say, passes, wider=wider, drawing=drawing, pieces=pieces)
+            if faces_of(self._course):
+                entries += [Entry(stroke(paint, style.ACTUAL_WIDTH), self._say(name)) for name, paint in _FACES]
             draw_film_legend(canvas, box, unit, entries)
         return canvas.pixels()
 
@@ -295,7 +311,8 @@ class Screen:
 def _bounds_um(course: Course) -> Floats:
     """Box (2, 2) around all that the plot is to show."""
     scenario, half = course.run.scenario, course.run.scenario.wire.kerf_um / 2.0
-    box = box_of(np.concatenate([bounds_um(course.run.toolpath), box_of(course.trace.wire_um)]))
+    curves = (course.run.toolpath, *faces_of(course))
+    box = box_of(np.concatenate([*map(bounds_um, curves), box_of(course.trace.wire_um)]))
     box = box + half * np.array([[-1.0], [1.0]])
     missing = max(LEAST_UM - float((box[1] - box[0]).max()), 0.0)
     box = box + np.array([[-missing / 2.0], [missing / 2.0]])

@@ -361,3 +361,10 @@ def test_the_drawing_that_a_cut_is_held_against_lies_in_the_plot_and_in_the_lege
     corners = held.whole.to_px(np.array([[-5000.0, 3000.0], [5000.0, -3000.0]]))
     assert np.stack([place.min(axis=0), place.max(axis=0) + 1]) == pytest.approx(corners, abs=2.0)  # px
     assert differs[:, round(held.layout.panel.left) :].any(), "the legend has it"
+
+
+@pytest.mark.parametrize(("name", "leans"), [("taper-round-on-square", True), ("keyhole", False)])
+def test_both_contours_of_a_leaning_wire_are_shown(name: str, leans: bool) -> None:
+    course = course_of(scenario_recording(name))
+    first = inside(shown(Screen(course, LOOK), 0.0), Screen(course, LOOK))
+    assert like(first, Paint.TOP).any() == leans

@@ -3,7 +3,8 @@ import { inflated, numbersOf } from "../../html/assets/packed.js";
 import { wayOf } from "./way.js";
 
 /**
- * @import { ReplayDocument, Tape } from "./document.js"
+ * @import { Tape } from "./document.js"
+ * @import { Handed } from "./handed.js"
  * @import { Way } from "./way.js"
  */
 
@@ -18,7 +19,7 @@ import { wayOf } from "./way.js";
  * @property {Int32Array} footRow the row that the deviation is measured from
  */
 
-/** @typedef {{ doc: ReplayDocument, steps: number, way: Way, samples: Samples }} Replay */
+/** @typedef {{ doc: Handed, steps: number, way: Way, samples: Samples }} Replay */
 
 /**
  * Times of the samples, of which the second differences are kept.
@@ -105,7 +106,7 @@ function samplesOf(tape, columns, way) {
 
 /**
  * Replay of a document.
- * @param {ReplayDocument} doc
+ * @param {Handed} doc
  * @returns {Promise<Replay>}
  */
 export async function decode(doc) {

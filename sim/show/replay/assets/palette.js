@@ -3,7 +3,7 @@
 const NAMES = /** @type {const} */ ([
   "page", "ink", "muted", "line", "raised", "accent", "control-line", "good", "table", "gone", "kerf", "ideal", "jump",
   "start", "end", "drawing", "work", "work-edge", "clamp", "clamp-edge", "slug", "wire", "steps", "trim-1", "trim-2", "trim-3",
-  "trim-4",
+  "trim-4", "top", "bottom",
 ]);
 
 /** @typedef {Record<typeof NAMES[number], string>} Shades */

@@ -5,6 +5,7 @@ import { pathOf } from "./path.js";
 
 /**
  * @import { Place, ReplayDocument } from "./document.js"
+ * @import { Handed } from "./handed.js"
  * @import { Layer } from "./layer.js"
  * @import { Colours } from "./palette.js"
  * @import { Path } from "./path.js"
@@ -16,7 +17,7 @@ const CLOSE = 5; // px per µm: there the ideal path is drawn for itself, not as
 
 /**
  * Scene of a replay's document.
- * @param {ReplayDocument} doc
+ * @param {Handed} doc
  * @param {Path} path
  * @param {Colours} colours
  */
@@ -26,6 +27,7 @@ export function sceneOf(doc, path, colours) {
   const travel = [[left, bottom], [right, bottom], [right, top], [left, top]];
   const ideal = newLayer();
   const drawing = doc.drawing && pathOf(doc.drawing);
+  const faces = doc.faces.map(pathOf);
 
   /**
    * Fill and edge an outline.
@@ -45,12 +47,27 @@ export function sceneOf(doc, path, colours) {
   }
 
   /**
+   * What a leaning wire cuts at the bottom or the top of the work; how many points that took.
+   * @param {Path} face
+   * @param {string} shade
+   * @param {Pen} pen
+   * @param {View} view
+   * @param {number} coarseness
+   */
+  function drawFace(face, shade, pen, view, coarseness) {
+    pen.strokeStyle = shade;
+    pen.lineWidth = 2;
+    return face.stroke(pen, view, (kind) => kind !== "jump", coarseness);
+  }
+
+  /**
    * The path as the drawing means it, thin, jumps dashed; how many points that took.
    * @param {Layer} layer
    */
   function drawIdeal({ pen, view, coarseness }) {
     const shades = colours();
     const isClose = view.scale > CLOSE;
+    const ends = faces.map((face, at) => drawFace(face, [shades.bottom, shades.top][at], pen, view, coarseness));
     pen.strokeStyle = shades.ideal;
     pen.globalAlpha = isClose ? 1 : 0.6;
     pen.lineWidth = isClose ? 1.75 : 1;
@@ -61,7 +78,7 @@ export function sceneOf(doc, path, colours) {
     pen.setLineDash([7, 5]);
     const dashed = path.stroke(pen, view, (kind) => kind === "jump", coarseness);
     pen.setLineDash([]);
-    return solid + dashed;
+    return ends.reduce((sum, points) => sum + points, solid + dashed);
   }
 
   /**

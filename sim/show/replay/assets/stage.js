@@ -76,6 +76,7 @@ export function stageOn(canvas, replay, model, onNeed) {
   const view = newView();
   const colours = coloursOf(spoil);
   const path = pathOf(doc.blocks);
+  const shown = [path, ...doc.faces.map(pathOf)];
   const scene = sceneOf(doc, path, colours);
   const pieces = piecesOf(doc, colours);
   const kerf = kerfOf(replay.samples, cutSamples(replay), widthSamples(replay), colours);
@@ -97,11 +98,16 @@ export function stageOn(canvas, replay, model, onNeed) {
     onNeed();
   }
 
-  /** Box of the path with its kerf. */
+  /** Box of all paths with their kerf. */
   function whole() {
-    const box = path.box();
+    const boxes = shown.map((each) => each.box());
     const width = Math.max(doc.offset_um, 1);
-    return { left: box.left - width, right: box.right + width, bottom: box.bottom - width, top: box.top + width };
+    return {
+      left: Math.min(...boxes.map(({ left }) => left)) - width,
+      right: Math.max(...boxes.map(({ right }) => right)) + width,
+      bottom: Math.min(...boxes.map(({ bottom }) => bottom)) - width,
+      top: Math.max(...boxes.map(({ top }) => top)) + width,
+    };
   }
 
   /**
