@@ -6,6 +6,7 @@ from parser.units import mm
 from sim.cut.solids import Section, Solid, TiltedCut
 from sim.setup.scenario import Scenario
 from sim.show.texts import Words
+from sim.show.texts.phrases import lasting
 
 
 def taper_rows(cut: TiltedCut | None, scenario: Scenario, tell: Words) -> list[tuple[str, str]]:
@@ -25,6 +26,7 @@ def taper_rows(cut: TiltedCut | None, scenario: Scenario, tell: Words) -> list[t
         (tell("taper.taper"), lean),
         (tell("taper.guides"), guides),
         (tell("taper.uv"), tell("taper.uv-of", side=f"{mm(uv.side_um):.3f}", corner=f"{mm(uv.corner_um):.3f}")),
+        (tell("taper.time"), tell("taper.time-of", time=lasting(cut.axes.plan.duration_s))),
         *_faces(cut, tell),
         *((tell(f"taper.{solid.kind}"), _solid(solid, tell)) for solid in cut.solids),
     ]

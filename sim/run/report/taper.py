@@ -70,6 +70,7 @@ class TaperEntry(TypedDict):
     planes: list[PlaneEntry]
     guides_assumed: bool
     pulses: FourPulsesEntry
+    time_s: Size
     uv_most_um: UVMostEntry
     lean_most_deg: Size
     sections: list[TiltedSectionEntry]
@@ -98,6 +99,7 @@ def taper_entry(run: "DryRun") -> TaperEntry | None:
         "planes": planes,
         "guides_assumed": scenario.guides is None and scenario.machine.guides is None,
         "pulses": {"xy": cut.axes.pulses[0], "uv": cut.axes.pulses[1]},
+        "time_s": rounded(cut.axes.plan.duration_s),
         "uv_most_um": {"side": rounded(uv.side_um), "corner": rounded(uv.corner_um)},
         "lean_most_deg": rounded(math.degrees(cut.path.lean_most_rad())),
         "sections": [_tilted_section(section) for section in cut.sections],

@@ -89,6 +89,17 @@ def test_the_piece_is_what_the_kerf_leaves_of_each_height(run: Run) -> None:
     assert solid.volume_mm3 == pytest.approx(frustum, rel=5e-4)
 
 
+def test_four_axes_take_the_time_of_the_longer_contour(run: Run) -> None:
+    done = run(taper=angle(3.0))
+    taper = build_report(done)["taper"]
+    assert taper is not None
+    feed = float(np.max(done.scenario.machine.feeds(done.scenario.thickness_mm).cut_um_s))
+    # The top is 24.192622 mm wide. Leads of 5 mm tilt the wire: up there they are 2.096311 mm shorter.
+    length_um = 4.0 * 24_192.622 + 2.0 * 5000.0
+    assert taper["time_s"] == pytest.approx(length_um / feed, rel=2e-3)
+    assert taper["time_s"] > 1.15 * build_report(done)["time_s"]["total"]
+
+
 def test_an_angle_of_0_changes_no_byte(run: Run) -> None:
     plain, upright = (report_text(build_report(run(kerf=True, taper=taper))) for taper in (None, angle(0.0)))
     assert plain == upright
