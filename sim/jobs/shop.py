@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import Final, NamedTuple
 
 from parser.files import read_bytes
-from parser.findings.errors import DrawingError, DrycutError
+from parser.findings.errors import DrawingError, DrycutError, SettingsError
 from parser.program import Program, load_program, suffixes
 from parser.text.encoding import printable
 from sim.base.progress import Progress, silent
@@ -56,6 +56,8 @@ def _made_bytes(scenario: Scenario, to_make: ToMake, progress: Progress) -> byte
     if isinstance(done, NotMade):
         drawing = printable(str(scenario.drawing and scenario.drawing.file))
         raise DrawingError("no-program-of-drawing", drawing=drawing, why=why_refused(done.refusal))
+    if done.upper_data is not None:
+        raise SettingsError("two-drawings-in-one-file", file=printable(str(to_make.file)))
     return done.data
 
 

@@ -128,7 +128,7 @@ class Making(NamedTuple):
         What is asked for some layers.
     upper
         Drawing of the contours at the top of the work; those of the drawing itself are at the bottom then. None for
-        one drawing.
+        one drawing. Beside an angle of all contours it is only compared.
     """
 
     tolerance_um: float = DEFAULT_FIT_UM
@@ -321,9 +321,13 @@ def read_to_make(scenario: Mapping[str, Any], where: str, drawing: DrawingTarget
 
 
 def of_drawing(making: Making, drawing: DrawingTarget) -> Making:
-    """What is asked, with layer, unit, gap and tolerance of the part that a drawing is held to."""
+    """What is asked, with layer, unit, gap and tolerance of the part that a drawing is held to, and that of its top."""
     return making._replace(
-        layer=drawing.layer, unit=drawing.unit, gap_um=drawing.gap_um, part_tolerance_um=drawing.tolerance_um
+        layer=drawing.layer,
+        unit=drawing.unit,
+        gap_um=drawing.gap_um,
+        part_tolerance_um=drawing.tolerance_um,
+        upper=drawing.upper,
     )
 
 

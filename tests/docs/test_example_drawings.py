@@ -3,7 +3,7 @@
 import math
 
 import pytest
-from example_drawings import BORE, DRAWINGS, MODULE, TEETH, drawing_text, involute_angle
+from example_drawings import BORE, DRAWINGS, MODULE, TEETH, TOPS, drawing_text, involute_angle
 from places import SCENARIOS
 
 from parser.drawing.read import read_drawing
@@ -11,8 +11,14 @@ from parser.drawing.read import read_drawing
 
 @pytest.mark.parametrize("name", DRAWINGS)
 def test_the_scenario_holds_the_drawing(name: str) -> None:
-    assert (SCENARIOS / name / "drawing.dxf").read_text("ascii") == drawing_text(name)
-    assert [file.name for file in sorted((SCENARIOS / name).iterdir())] == ["drawing.dxf", "scenario.toml"]
+    assert (SCENARIOS / name / "drawing.dxf").read_text("ascii") == drawing_text(DRAWINGS[name])
+    tops = ["top.dxf"] if name in TOPS else []
+    assert [file.name for file in sorted((SCENARIOS / name).iterdir())] == ["drawing.dxf", "scenario.toml", *tops]
+
+
+@pytest.mark.parametrize("name", TOPS)
+def test_the_scenario_holds_the_drawing_of_its_top(name: str) -> None:
+    assert (SCENARIOS / name / "top.dxf").read_text("ascii") == drawing_text(TOPS[name])
 
 
 def test_a_tooth_is_half_a_pitch_wide_at_the_pitch_circle() -> None:

@@ -1,7 +1,8 @@
 """The drawings of scenarios that are made of a drawing alone; ``python tests/tools/example_drawings.py`` writes them.
 
 The gear is m 1, z 24, 20°: involutes as splines, root fillets, a bore. The plate has round corners and three holes. The
-logo is a rosette with five petals and a window, in which a leaf stands: closed cubic B-splines throughout.
+logo is a rosette with five petals and a window, in which a leaf stands: closed cubic B-splines throughout. Round on square has a drawing of its
+top.
 """
 
 import math
@@ -101,13 +102,26 @@ def polar(radius: float, angle: float) -> Place:
     return radius * math.cos(angle), radius * math.sin(angle)
 
 
-DRAWINGS: dict[str, Callable[[Modelspace], None]] = {"gear": gear, "plate": plate, "logo": logo}
+def square(space: Modelspace) -> None:
+    """10 mm wide, about the origin."""
+    space.add_lwpolyline([(-5.0, -5.0), (5.0, -5.0), (5.0, 5.0), (-5.0, 5.0)], close=True)
 
 
-def drawing_text(name: str) -> str:
-    """The drawing as the scenario holds it: group codes of the sections that carry the drawing, and no date."""
+def circle(space: Modelspace) -> None:
+    """4 mm of radius, about the origin."""
+    space.add_circle((0.0, 0.0), 4.0)
+
+
+Draw = Callable[[Modelspace], None]
+DRAWINGS: dict[str, Draw] = {"gear": gear, "plate": plate, "logo": logo, "taper-two-drawings": square}
+TOPS: dict[str, Draw] = {"taper-two-drawings": circle}
+"""Drawings of the top of the work, in ``top.dxf``."""
+
+
+def drawing_text(draw: Draw) -> str:
+    """A drawing as a scenario holds it: group codes of the sections that carry the drawing, and no date."""
     document = ezdxf.new("R2000")
-    DRAWINGS[name](document.modelspace())
+    draw(document.modelspace())
     lines = ["0", "SECTION", "2", "HEADER", "9", "$ACADVER", "1", "AC1015", "9", "$INSUNITS", "70", "4", "0", "ENDSEC"]
     lines += ["0", "SECTION", "2", "ENTITIES"]
     for entity in document.modelspace():
@@ -131,6 +145,7 @@ def _lines(code: int, value: object) -> Iterator[str]:
 
 if __name__ == "__main__":
     scenarios = Path(__file__).parents[2] / "scenarios"
-    for name in DRAWINGS:
-        (scenarios / name).mkdir(exist_ok=True)
-        (scenarios / name / "drawing.dxf").write_text(drawing_text(name), "ascii", newline="\n")
+    for file, drawings in (("drawing.dxf", DRAWINGS), ("top.dxf", TOPS)):
+        for name, draw in drawings.items():
+            (scenarios / name).mkdir(exist_ok=True)
+            (scenarios / name / file).write_text(drawing_text(draw), "ascii", newline="\n")

@@ -51,7 +51,7 @@ def wall_shift_um(scenario: Scenario) -> float:
 
 
 def leaning(making: Making, scenario: Scenario, *, says_angle: bool) -> Making:
-    """What is asked for, its offsets as they are in the program plane.
+    """What is asked for, its offsets as they are in the program plane; the angle says what the top is.
 
     Where the language does not say the angle, several passes run one way: the control leans the wire to one side of
     travel, and on the way back that is the other side of the contour.
@@ -59,6 +59,7 @@ def leaning(making: Making, scenario: Scenario, *, says_angle: bool) -> Making:
     cosine = cosine_of(scenario)
     if cosine == 1.0:
         return making
+    making = making._replace(upper=None)
     layers = tuple(wish._replace(passes_um=_widened(wish.passes_um, cosine)) for wish in making.layers)
     returning = making.returning if says_angle else "one-way"
     return making._replace(passes_um=_widened(making.passes_um, cosine), layers=layers, returning=returning)

@@ -9,17 +9,21 @@ import shapely
 from depth import cases
 from drawings_dxf import drawn
 from ezdxf.layouts import Modelspace
+from places import SCENARIOS
 from runs import plain_scenario
 
 from parser.drawing.read import read_drawing
+from parser.findings.errors import SettingsError
 from parser.geometry.along import places
 from parser.geometry.curves import Curves
 from parser.program import load_program, paired
 from parser.write.iso import iso_choices
+from sim.jobs.shop import source_of
 from sim.make.cam.maker import MadeProgram, NotMade, made_program
 from sim.make.wanted import Wanted
 from sim.run.report.document import build_report
 from sim.setup.making import Making
+from sim.setup.scenario import load_scenario
 
 ISO, SODICK, UV = (Wanted("iso", iso_choices(dialect)) for dialect in ("fast-wire", "sodick", "mitsubishi"))
 TO_3B = Wanted("3b")
@@ -181,3 +185,13 @@ def test_random_convex_drawings_are_proved_and_their_paths_lie_at_the_offset(see
 def _along(curves: Curves) -> "np.ndarray[tuple[int, int], np.dtype[np.float64]]":
     row = np.repeat(np.arange(len(curves)), 50)
     return places(curves, row, np.tile(np.linspace(0.0, 1.0, 50), len(curves)))
+
+
+def test_a_scenario_of_two_drawings_takes_one_file(tmp_path: Path) -> None:
+    """Two files of 3B would leave its run without the upper contour."""
+    own = SCENARIOS / "taper-two-drawings"
+    for file in own.iterdir():
+        (tmp_path / file.name).write_bytes(file.read_bytes().replace(b"program.iso", b"program.3b"))
+    with pytest.raises(SettingsError, match="a file for each of two contours"):
+        source_of(load_scenario(tmp_path))
+    assert b" : " in source_of(load_scenario(own)).data
