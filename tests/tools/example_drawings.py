@@ -1,8 +1,8 @@
 """The drawings of scenarios that are made of a drawing alone; ``python tests/tools/example_drawings.py`` writes them.
 
 The gear is m 1, z 24, 20°: involutes as splines, root fillets, a bore. The plate has round corners and three holes. The
-logo is a rosette with five petals and a window, in which a leaf stands: closed cubic B-splines throughout. Round on square has a drawing of its
-top.
+logo is a rosette with five petals and a window, in which a leaf stands: closed cubic B-splines throughout. Round on
+square has a drawing of its top as well.
 """
 
 import math

@@ -23,7 +23,8 @@ from parser.units import from_mm
 from parser.write.draft import Draft, Written
 from sim.base.progress import Progress, silent
 from sim.make.cam.compensated_draft import added_draft, draft_of_cuts, draft_of_plan, kept_draft
-from sim.make.cam.leaning import angle_words, in_plane, lean_notes, lean_of, leaning, refuse_upright_ways
+from sim.make.cam.lean.angle import angle_words, in_plane, lean_notes, lean_of, leaning, refuse_upright_ways
+from sim.make.cam.lean.two_drawings import draft_of_both, facing_notes
 from sim.make.cam.model import CannotCutError, CutPlan, Refusal
 from sim.make.cam.passes import figure_cut
 from sim.make.cam.planned import PlanRequest, as_cut, planned
@@ -31,7 +32,6 @@ from sim.make.cam.proof import ToProve, proved
 from sim.make.cam.proof_model import Proof
 from sim.make.cam.proof_run import least_um
 from sim.make.cam.target import target_of
-from sim.make.cam.two_drawings import draft_of_both, facing_notes
 from sim.make.conversion_proof import Proof as HeldAgainst
 from sim.make.conversion_proof import proof as held_against
 from sim.make.wanted import (

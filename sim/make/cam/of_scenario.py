@@ -4,7 +4,7 @@ from parser.dialect.reader import OwnDialect
 from parser.findings.errors import SettingsError
 from parser.write.iso import IsoChoices, iso_choices
 from sim.base.progress import Progress, silent
-from sim.make.cam.leaning import in_plane, leaning
+from sim.make.cam.lean.angle import in_plane, leaning
 from sim.make.cam.maker import MadeProgram, NotMade, unproved
 from sim.make.wanted import (
     Wanted,

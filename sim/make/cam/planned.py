@@ -13,7 +13,8 @@ from sim.make.cam.chosen import USUAL_LEAD_UM
 from sim.make.cam.contacts import walls
 from sim.make.cam.coreless import coreless
 from sim.make.cam.facing import Facing
-from sim.make.cam.leaning import in_plane, lean_of, wall_shift_um
+from sim.make.cam.lean.angle import in_plane, lean_of, wall_shift_um
+from sim.make.cam.lean.two_drawings import facings_of
 from sim.make.cam.model import (
     CannotCutError,
     CutPlan,
@@ -32,7 +33,6 @@ from sim.make.cam.parts import parts_of
 from sim.make.cam.passes import figure_cut, offsets_of
 from sim.make.cam.picks import spare_notes
 from sim.make.cam.threads import thread_notes, threads_of
-from sim.make.cam.two_drawings import facings_of
 from sim.make.cam.visits import visited
 from sim.setup.making import Making
 from sim.setup.scenario import Scenario

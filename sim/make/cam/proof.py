@@ -23,7 +23,7 @@ from parser.toolpath import Point, Toolpath
 from parser.units import mm
 from sim.base.progress import Progress, silent
 from sim.cut.pieces.pieces import Piece, Pieces
-from sim.make.cam.heights import ruled_walls_off, wall_faults, walls_off
+from sim.make.cam.lean.walls import ruled_walls_off, wall_faults, walls_off
 from sim.make.cam.model import CutPlan, FigureCut, NotProved, with_sides
 from sim.make.cam.proof_model import Faces, Fault, Proof, WallOff
 from sim.make.cam.proof_run import AsRun, as_run

@@ -8,7 +8,7 @@ from parser.findings.errors import SettingsError
 from parser.toolpath import Toolpath
 from parser.units import mm
 from sim.check.travel import middle_mm
-from sim.make.cam.leaning import cosine_of, in_plane
+from sim.make.cam.lean.angle import cosine_of, in_plane
 from sim.make.cam.model import CutPlan, Figure
 from sim.setup.making import Making
 from sim.setup.part import Offset, OffsetPass

@@ -11,7 +11,7 @@ from ezdxf.layouts import Modelspace
 from runs import plain_scenario
 
 from parser.write.iso import iso_choices
-from sim.make.cam.heights import wall_faults, walls_off
+from sim.make.cam.lean.walls import wall_faults, walls_off
 from sim.make.cam.maker import MadeProgram, NotMade, made_program, unproved
 from sim.make.cam.of_scenario import wanted_of
 from sim.make.cam.proof_run import as_run

@@ -21,7 +21,7 @@ from parser.units import mm
 from sim.cut.pieces.kept_edges import kept_shapes
 from sim.cut.pieces.pieces import Pieces
 from sim.cut.solids import Section, TiltedCut
-from sim.make.cam.leaning import grows_upwards
+from sim.make.cam.lean.angle import grows_upwards
 from sim.make.cam.model import CutPlan
 from sim.make.cam.proof_model import Fault, WallOff
 from sim.make.cam.target import Target
