@@ -15,7 +15,7 @@ from sim.check.compensation.check import compensation_of, own_compensation
 from sim.check.offset import Offsetting
 from sim.setup.machine.guides import Guides
 from sim.setup.part import Offset
-from sim.setup.taper import TaperSettings, heights_of
+from sim.setup.taper import TaperSettings, heights_of, refuse_one_height
 
 
 class LeanDemands(NamedTuple):
@@ -60,8 +60,9 @@ def own_offsets(program: Program, plane: Offsetting | None) -> Offsets:
 def tilted_path(drawn: Program, offsets: Offsets, demands: LeanDemands) -> TiltedPath | None:
     """The way of the wire of a program; None where it is upright.
 
-    SettingsError where program and settings both tell of the lean, and where the program plane is outside of the work;
-    ProgramError (3B705) where the offsets of two contours run along them in different rounds.
+    SettingsError where program and settings both tell of the lean, where the program plane is outside of the work, and
+    where two contours lie at one height; ProgramError (3B705) where the offsets of two contours run along them in
+    different rounds.
     """
     taper, contour, made = demands.taper, drawn.toolpath, offsets.plane
     angle_rad = taper.angle_rad or 0.0
@@ -72,6 +73,7 @@ def tilted_path(drawn: Program, offsets: Offsets, demands: LeanDemands) -> Tilte
     heights = heights_of(taper, demands.guides, demands.thickness_mm)
     toolpath = contour if made is None else made.program.toolpath
     if contour.upper is not None:
+        refuse_one_height(taper.program_plane_um, heights.work_um)
         contours = matched_rows(contour, contour.upper)
         if made is not None and offsets.top is not None:
             _refuse_other_rounds(drawn, made, offsets.top)

@@ -92,6 +92,12 @@ def heights_of(taper: TaperSettings, guides: Guides, thickness_mm: float) -> Hei
     return Heights(work_um, taper.program_plane_um, -guides.lower_um, work_um + guides.upper_um)
 
 
+def refuse_one_height(plane_um: float, work_um: float) -> None:
+    """SettingsError where the planes of two contours lie at one height."""
+    if plane_um >= work_um:
+        raise SettingsError("contours-at-one-height", plane_mm=mm(plane_um))
+
+
 def angle_of(text: str, where: str) -> float:
     """An angle in rad of degrees, with or without their sign: ``3``, ``3deg``, ``3°``. SettingsError for others."""
     number = text.strip().removesuffix("°").removesuffix("deg").strip()

@@ -64,14 +64,14 @@ class Facing(NamedTuple):
         share = np.tile(np.linspace(0.0, 1.0, _NODES), len(self.lower))
         return float(np.hypot(*(places(self.upper, row, share) - places(self.lower, row, share)).T).max())
 
-    def ruled(self, height_um: float) -> Ruled:
-        """The surface between them."""
-        return Ruled(self.lower, self.upper, 0.0, height_um)
+    def ruled(self, lower_z_um: float, upper_z_um: float) -> Ruled:
+        """The surface between them at two heights."""
+        return Ruled(self.lower, self.upper, lower_z_um, upper_z_um)
 
     def cosine(self, height_um: float) -> float:
-        """Of the lean across the walls, its mean along the lower contour."""
+        """Of the lean across the walls over a height, its mean along the lower contour."""
         row, half = np.arange(len(self.lower)), np.full(len(self.lower), 0.5)
-        ruled = self.ruled(height_um)
+        ruled = self.ruled(0.0, height_um)
         tangent = (ruled.leans(row, half) * ruled.across(row, half)).sum(axis=1)
         return float(np.average(1.0 / np.hypot(1.0, tangent), weights=self.lower.length_um))
 

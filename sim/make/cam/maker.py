@@ -19,11 +19,18 @@ from parser.findings.errors import SettingsError
 from parser.program import Program, load_program, paired
 from parser.text.encoding import printable
 from parser.toolpath import Toolpath
-from parser.units import from_mm
 from parser.write.draft import Draft, Written
 from sim.base.progress import Progress, silent
 from sim.make.cam.compensated_draft import added_draft, draft_of_cuts, draft_of_plan, kept_draft
-from sim.make.cam.lean.angle import angle_words, in_plane, lean_notes, lean_of, leaning, refuse_upright_ways
+from sim.make.cam.lean.angle import (
+    angle_words,
+    height_over_plane_um,
+    in_plane,
+    lean_notes,
+    lean_of,
+    leaning,
+    refuse_upright_ways,
+)
 from sim.make.cam.lean.two_drawings import draft_of_both, facing_notes
 from sim.make.cam.model import CannotCutError, CutPlan, Refusal
 from sim.make.cam.passes import figure_cut
@@ -257,7 +264,7 @@ def _fitted(request: PlanRequest, wanted: Wanted, fit_um: float) -> MadeProgram:
     request.progress("write", 0, 1)
     plan = plan._replace(notes=(*plan.notes, *_own_codes(wanted), *lean_notes(plan, wanted), *facing_notes(plan)))
     plan = plan._replace(is_added=wanted.keeps and wanted.language == "4b" and any(plan.passes_um))
-    draft = begun(_drafted(plan, wanted, from_mm(request.scenario.thickness_mm)), wanted)
+    draft = begun(_drafted(plan, wanted, height_over_plane_um(request.scenario)), wanted)
     text, program = _read_back(draft, request.path.stem, wanted)
     off = held_against(draft, text, program.toolpath)
     above = written_above(draft, wanted)
@@ -325,7 +332,10 @@ def _unfitted(path: Path, making: Making) -> Drawing:
 
 
 def _drafted(plan: CutPlan, wanted: Wanted, height_um: float) -> Draft:
-    """What is written of a plan for work of a height. CannotCutError where the controller cannot add its offsets."""
+    """What is written of a plan, whose top lies so high over the plane of the program.
+
+    CannotCutError where the controller cannot add its offsets.
+    """
     if plan.making.lag_um:
         _refuse_unknown_ways(plan, wanted)
     if not plan.facings and (not wanted.keeps or not any(plan.passes_um)):

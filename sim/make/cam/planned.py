@@ -71,7 +71,7 @@ def planned(request: PlanRequest, fit_um: float | None = None) -> CutPlan:
     parts = parts_of(drawing, making)
     refuse_strange_layers(parts.figures, making)
     parts = parts.without(at_fault)
-    facings = _facings(parts, making, fit_um)
+    facings = _facings(parts, making, fit_um, all_cut=not (making.picks or at_fault))
     moved_um = max((each.most_aside_um() for each in facings.values()), default=wall_shift_um(scenario))
     while True:
         try:
@@ -87,12 +87,12 @@ def planned(request: PlanRequest, fit_um: float | None = None) -> CutPlan:
             parts = rest
 
 
-def _facings(parts: Parts, making: Making, fit_um: float) -> dict[int, Facing]:
+def _facings(parts: Parts, making: Making, fit_um: float, *, all_cut: bool) -> dict[int, Facing]:
     """The figures with their partners in the drawing of the top, by their numbers; none without such a drawing."""
     if making.upper is None:
         return {}
     above = read_drawing(making.upper, making.layer, making.gap_um, fit_um=fit_um, unit=making.unit)
-    return facings_of(parts.figures, parts_of(above, making._replace(picks=())).figures)
+    return facings_of(parts.figures, parts_of(above, making._replace(picks=())).figures, all_cut=all_cut)
 
 
 def as_cut(drawing: Drawing, making: Making, scenario: Scenario) -> Drawing:

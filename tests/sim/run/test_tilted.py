@@ -313,6 +313,11 @@ def test_what_does_not_go_together_is_refused(run: Run) -> None:
         run(taper=angle(3.0, program_plane_um=50_000.0))
 
 
+def test_two_contours_at_one_height_are_refused(run: Run) -> None:
+    with pytest.raises(SettingsError, match="two contours need two heights"):
+        run(taper=above(UPPER)._replace(program_plane_um=40_000.0), thickness_mm=40.0)
+
+
 def test_a_lag_bows_the_wire_back_at_each_height(run: Run) -> None:
     straight, bowed = (run(taper=angle(3.0), kerf=True, wire=replace(DEFAULT_WIRE, lag=lag)) for lag in (0.0, 300.0))
     assert straight.tilted is not None

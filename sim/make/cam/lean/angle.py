@@ -18,7 +18,7 @@ from sim.make.wanted import Wanted
 from sim.measure.compare.rings import orientation
 from sim.setup.making import Making
 from sim.setup.scenario import Scenario
-from sim.setup.taper import TaperSettings
+from sim.setup.taper import TaperSettings, refuse_one_height
 
 
 def lean_of(scenario: Scenario) -> TaperSettings | None:
@@ -50,6 +50,15 @@ def wall_shift_um(scenario: Scenario) -> float:
     return max(plane_um, from_mm(scenario.thickness_mm) - plane_um) * float(np.tan(taper.angle_rad))
 
 
+def height_over_plane_um(scenario: Scenario) -> float:
+    """From the plane of the program to the top of the work."""
+    return from_mm(scenario.thickness_mm) - _plane_um(scenario)
+
+
+def _plane_um(scenario: Scenario) -> float:
+    return 0.0 if scenario.taper is None else scenario.taper.program_plane_um
+
+
 def leaning(making: Making, scenario: Scenario, *, says_angle: bool) -> Making:
     """What is asked for, its offsets as they are in the program plane; the angle says what the top is.
 
@@ -70,8 +79,10 @@ def _widened(passes_um: tuple[float, ...], cosine: float) -> tuple[float, ...]:
 
 
 def refuse_upright_ways(making: Making, wanted: Wanted, scenario: Scenario) -> None:
-    """CannotCutError for what is known of upright wires alone."""
+    """CannotCutError for what is known of upright wires alone, SettingsError for two contours at one height."""
     is_two = making.upper is not None
+    if is_two:
+        refuse_one_height(_plane_um(scenario), from_mm(scenario.thickness_mm))
     if lean_of(scenario) is None and not is_two:
         return
     misfits = {

@@ -29,12 +29,12 @@ _ALIKE = 0.1
 """Partners have at least this share of their areas in common."""
 
 
-def facings_of(figures: Sequence[Figure], upper: Sequence[Figure]) -> dict[int, Facing]:
+def facings_of(figures: Sequence[Figure], upper: Sequence[Figure], *, all_cut: bool) -> dict[int, Facing]:
     """Each figure of the lower drawing, by its number, with the contour that lies over it in the upper one.
 
-    CannotCutError where there are not as many contours in both, or one lies over none.
+    CannotCutError where one has no partner; where `all_cut`, also where there are not as many contours in both.
     """
-    if len(figures) != len(upper):
+    if all_cut and len(figures) != len(upper):
         raise CannotCutError(Refusal("upper-counts", (), (("lower", str(len(figures))), ("upper", str(len(upper))))))
     shapes = [[polygon(figure.contour) for figure in of] for of in (figures, upper)]
     free = list(range(len(upper)))

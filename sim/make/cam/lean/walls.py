@@ -65,14 +65,15 @@ def ruled_walls_off(
 
     `top` are the contours of the drawing of the top, as drawn. What a round wire cannot reach in a corner is no fault.
     """
+    heights = cut.path.heights
     for section in cut.sections:
-        if section.pieces is None or not section.z_um:
+        if section.pieces is None or section.z_um == heights.program_um:
             continue
         edges = _edges(section.pieces)
         for at in target.cut.tolist():
             figure = plan.cuts[at].figure
-            wall = polygon(plan.facings[at].ruled(cut.path.heights.work_um).section(section.z_um)[0])
-            if section.z_um == cut.path.heights.work_um:
+            wall = polygon(plan.facings[at].ruled(heights.program_um, heights.work_um).section(section.z_um)[0])
+            if section.z_um == heights.work_um:
                 wall = _most_alike(np.array(top), wall) or wall
             edge = _most_alike(edges, wall)
             if edge is None:

@@ -52,7 +52,7 @@ def test_contours_are_matched_by_what_they_have_in_common(lower: Curves, upper: 
 
 def test_round_on_square_is_the_worked_solid() -> None:
     found = facing(SQUARE, CIRCLE)
-    ruled = found.ruled(40_000.0)
+    ruled = found.ruled(0.0, 40_000.0)
     assert ruled.volume_um3(np.arange(len(ruled)), 0.0, 40_000.0) * 1e-9 == pytest.approx(11_855.5087, abs=1e-3)
     assert found.most_aside_um() == pytest.approx(10_000.0 * math.sqrt(2.0) - 8_000.0)
 

@@ -24,6 +24,7 @@ from sim.make.wanted import Wanted
 from sim.run.report.document import build_report
 from sim.setup.making import Making
 from sim.setup.scenario import load_scenario
+from sim.setup.taper import TaperSettings
 
 ISO, SODICK, UV = (Wanted("iso", iso_choices(dialect)) for dialect in ("fast-wire", "sodick", "mitsubishi"))
 TO_3B = Wanted("3b")
@@ -49,6 +50,7 @@ class Sheets:
 
     def __init__(self, folder: Path) -> None:
         self._folder, self._number = folder, 0
+        self.scenario = plain_scenario(thickness_mm=16.0)
 
     def file(self, draw: Draw) -> Path:
         self._number += 1
@@ -58,7 +60,7 @@ class Sheets:
 
     def tried(self, lower: Draw, upper: Draw, wanted: Wanted = ISO, **asked: object) -> MadeProgram | NotMade:
         making = Making(**asked)._replace(upper=self.file(upper))  # type: ignore[arg-type]
-        return made_program(self.file(lower), making, wanted, plain_scenario(thickness_mm=16.0))
+        return made_program(self.file(lower), making, wanted, self.scenario)
 
     def made(self, lower: Draw, upper: Draw, wanted: Wanted = ISO, **asked: object) -> MadeProgram:
         done = self.tried(lower, upper, wanted, **asked)
@@ -114,6 +116,17 @@ def test_a_controller_adds_the_offset_of_both(sheets: Sheets) -> None:
     assert done.verdict == "pass"
     assert b"G151 D1" in done.data
     assert b"G150" in done.data
+
+
+def test_the_lower_drawing_lies_in_the_program_plane(sheets: Sheets) -> None:
+    sheets.scenario = plain_scenario(thickness_mm=20.0, taper=TaperSettings(program_plane_um=4000.0))
+    done = sheets.made(square(4.0), circle(3.2))
+    assert done.verdict == "pass"
+    assert done.proof is not None
+    assert {wall.z_um for wall in done.proof.walls} == {0.0, 5_000.0, 10_000.0, 15_000.0, 20_000.0}
+    sheets.scenario = plain_scenario(thickness_mm=20.0, taper=TaperSettings(program_plane_um=20_000.0))
+    with pytest.raises(SettingsError, match="two contours need two heights"):
+        sheets.tried(square(4.0), circle(3.2))
 
 
 def test_a_lead_reaches_over_walls_that_lean_far(sheets: Sheets) -> None:
