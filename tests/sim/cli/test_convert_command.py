@@ -152,3 +152,32 @@ def test_what_was_assumed_to_read_it_is_said(iso: Path, lang: str, told: str) ->
     code, out, _ = run(iso.with_suffix(".3b"), "-o", iso.with_name("again.iso"), "--lang", lang)
     assert code == 0
     assert told not in "".join(out.split())
+
+
+LOWER = "B0B5000B5000GYL2\nB9000B0B9000GXL1\nB0B8000B8000GYL2\nB9000B8000B9000GXL3\nB0B5000B5000GYL4\nDD\n"
+UPPER = "B0B6000B6000GYL2\nB7000B0B7000GXL1\nB0B6000B6000GYL2\nB7000B6000B7000GXL3\nB0B6000B6000GYL4\nDD\n"
+
+
+def test_two_files_become_one_and_two_again(tmp_path: Path) -> None:
+    (tmp_path / "low.3b").write_text(LOWER, "ascii")
+    (tmp_path / "high.3b").write_text(UPPER, "ascii")
+    one = tmp_path / "part.iso"
+    code, said, _ = run(tmp_path / "low.3b", "--upper", tmp_path / "high.3b", "-o", one)
+    assert code == 0, said
+    assert one.read_text("ascii").count(" : ") == 5
+    code, said, _ = run(one, "--dialect", "fast-wire", "-o", tmp_path / "back.3b")
+    assert code == 0, said
+    assert "back-upper.3b;runbothwith--upper" in "".join(said.split())  # folders have long names
+    for written, text in (("back.3b", LOWER), ("back-upper.3b", UPPER)):
+        assert motion((tmp_path / written).read_text("ascii")) == motion(text)
+
+
+def test_the_upper_file_never_takes_the_place_of_a_source(tmp_path: Path) -> None:
+    (tmp_path / "part.3b").write_text(LOWER, "ascii")
+    (tmp_path / "part-upper.3b").write_text(UPPER, "ascii")
+    sources = (tmp_path / "part.3b", "--upper", tmp_path / "part-upper.3b")
+    code, _, told = run(*sources, "-o", tmp_path / "part.3b")
+    assert (code, "is the program itself" in " ".join(told.split())) == (2, True)
+    (tmp_path / "in.3b").write_text(LOWER, "ascii")
+    code, _, told = run(tmp_path / "in.3b", *sources[1:], "-o", tmp_path / "part.3b")
+    assert (code, (tmp_path / "part-upper.3b").read_text("ascii")) == (2, UPPER)

@@ -54,6 +54,37 @@ def test_a_drawing_becomes_a_proved_program(part: Path) -> None:
     assert length == pytest.approx(float(program.toolpath.length_um[~program.toolpath.is_jump].sum()) / 1e3, abs=1e-3)
 
 
+def smaller(space: Modelspace) -> None:
+    """The plate of the top: narrower by 0.2 mm to each side, its hole wider."""
+    width, height = PLATE
+    corners = [(0.2, 0.2), (width - 0.2, 0.2), (width - 0.2, height - 0.2), (0.2, height - 0.2)]
+    space.add_lwpolyline(corners, close=True)
+    space.add_circle((width / 3, height / 2), 0.9)
+
+
+@pytest.mark.parametrize(("name", "files"), [("out.3b", {"out.3b", "out-upper.3b"}), ("out.iso", {"out.iso"})])
+def test_two_drawings_become_a_program_of_both_contours(part: Path, name: str, files: set[str]) -> None:
+    (part.parent / "above").mkdir()
+    above, folder = drawn(part.parent / "above", smaller), part.parent / "made"
+    folder.mkdir()
+    options = ("--upper", above, "--height", "10mm", "-o", folder / name)
+    code, said, _ = run(part, *options)
+    assert code == 0, said
+    assert {file.name for file in folder.iterdir()} == files
+    assert "matched curve by curve with the drawing of the top" in " ".join(said.split())
+    assert ("out-upper.3b;runbothwith--upper" in "".join(said.split())) == (len(files) > 1)
+    code, _, told = run(part, *options, "--taper", "3deg")
+    assert (code, "an angle and an upper program were given" in " ".join(told.split())) == (2, True)
+
+
+def test_what_is_no_drawing_of_the_top_is_told_and_nothing_is_written(part: Path) -> None:
+    out = part.with_name("out.iso")
+    for upper, complaint in ((part.with_name("nowhere.dxf"), "cannot be read"), (Path(__file__), "is no DXF file")):
+        code, _, told = run(part, "--upper", upper, "-o", out)
+        assert (code, complaint in " ".join(told.split())) == (2, True)
+    assert not out.exists()
+
+
 def test_a_preview_writes_a_picture_alone_and_its_table_fits_the_width(part: Path) -> None:
     picture = part.with_name("plan.svg")
     options = ("--preview", "--picture", picture, "--pass", "0.13mm", "--pass", "0.1mm", "--tab", "2mm")

@@ -219,9 +219,12 @@ def test_the_page_of_an_offset_names_findings_by_their_blocks_of_the_program() -
 
 def same_but_files(scenario: Scenario) -> Scenario:
     """A scenario whose files stand without their folders."""
-    drawing = scenario.drawing and scenario.drawing._replace(file=Path(scenario.drawing.file.name))
+    drawing, to_make = scenario.drawing, scenario.to_make
+    upper = drawing and drawing.upper and Path(drawing.upper.name)
+    drawing = drawing and drawing._replace(file=Path(drawing.file.name), upper=upper)
+    to_make = to_make and to_make._replace(making=to_make.making._replace(upper=upper))
     quiz = tuple(question._replace(where="") for question in scenario.quiz)
-    return replace(scenario, program=Path(scenario.program.name), drawing=drawing, quiz=quiz)
+    return replace(scenario, program=Path(scenario.program.name), drawing=drawing, quiz=quiz, to_make=to_make)
 
 
 @pytest.mark.parametrize("name", sorted(path.name for path in SCENARIOS.iterdir() if path.is_dir()))
