@@ -32,9 +32,11 @@ def with_upper_contour(listing: Listing, profile: Profile, choices: Choices, pat
     texts = (behind, before) if profile.planes == "upper-lower" else (before, behind)
     lower, upper = (moved(checked(read_listing(text), profile), profile, choices) for text in texts)
     toolpath, other = lower.toolpath, upper.toolpath
+    if not len(toolpath) and not len(other):
+        return lower  # nothing moves
     leans = toolpath.leans or other.leans
-    is_one_offset = _same_compensation(toolpath.compensation, other.compensation)
-    if leans or not is_one_offset or not same_rows(toolpath, other) or lower.damages or upper.damages:
+    can_pair = same_rows(toolpath, other) and not (lower.damages or upper.damages)
+    if leans or not can_pair or not _same_compensation(toolpath.compensation, other.compensation):
         return path._replace(lean_is_known=False)
     contour = with_jumps(other.picked(slice(None)), toolpath.kind == CurveKind.JUMP)
     source = replace(toolpath.source, text=listing.text)
@@ -46,7 +48,7 @@ def with_upper_contour(listing: Listing, profile: Profile, choices: Choices, pat
 
 
 def _same_compensation(lower: Compensation | None, upper: Compensation | None) -> bool:
-    """Whether two contours are offset to one side by as much, block by block, or neither is."""
+    """Whether two contours of as many rows are offset to one side by as much, block by block, or neither is."""
     if lower is None or upper is None:
         return lower is upper
     return bool((lower.side == upper.side).all()) and np.array_equal(lower.by_um, upper.by_um, equal_nan=True)

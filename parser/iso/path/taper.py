@@ -85,9 +85,12 @@ def _angles_deg(given: GivenColumns, runs: Ints) -> Floats:
 
 
 def _upper(given: GivenColumns, run: Run) -> tuple[Curves | None, bool]:
-    """The contour of the plane of U and V, None where they are 0; and whether they change on lines alone."""
+    """The contour of the plane of U and V, None where they are 0, or nothing moves.
+
+    And whether they change on lines alone.
+    """
     aside = _aside_um(given, run.flow.block, run.mode)
-    if not aside.any():
+    if not aside.any() or not len(run.rows.at):
         return None, True
     at, path = run.rows.at, run.rows.curves
     end = aside[at]

@@ -250,6 +250,7 @@ def report_page(
         granted=taken_for_granted(run),
         figures=key_figures(run, report),
         times=time_figures(report),
+        technology_is_assumed=run.scenario.technology is None,
         findings=findings,
         unshown=len(run.findings) - len(findings),
         explained=explained(run.findings),

@@ -129,3 +129,18 @@ def test_contours_with_offsets_of_their_own_are_not_known() -> None:
     program = read(text, "fast-wire")
     assert program.toolpath.upper is None
     assert "ISO600" in {finding.code for finding in program.findings}
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "G92 X0 Y0\nU1. V1.\nM02\n",
+        "G92 X0. Y0. : G92 X1. Y0.\nM02\n",
+        "G92 X0 Y0\nG41 D1\nG01 X5. Y0. : M00\nX9. Y9.\nM02\n",
+    ],
+)
+@pytest.mark.parametrize("dialect", ["common", "fast-wire", "sodick"])
+def test_two_contours_of_which_one_or_both_stand_get_an_answer(text: str, dialect: str) -> None:
+    program = read(text, dialect)
+    upper = program.toolpath.upper
+    assert upper is None or len(upper) == len(program.toolpath) > 0
