@@ -4,7 +4,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.geometry.curves import CurveKind, Curves, Floats, Ints
+from parser.geometry.along import along_um
+from parser.geometry.curves import CurveKind, Curves, Floats, Ints, total_before
 
 
 class Feet(NamedTuple):
@@ -15,6 +16,16 @@ class Feet(NamedTuple):
 
     place_um: Floats
     angle_rad: Floats
+
+
+def lengths_to(curves: Curves, place_um: Floats) -> Floats:
+    """(k,) how far µm along a chain of n curves its places lie that are nearest to others (k, 2)."""
+    n, k = len(curves), len(place_um)
+    x, y = np.repeat(place_um, n, axis=0).T
+    off, _ = distance_to_curves(curves, np.tile(np.arange(n), k), x, y)
+    row = off.reshape(k, n).argmin(axis=1)
+    lengths: Floats = total_before(curves.length_um)[row] + along_um(curves, row, place_um)
+    return lengths
 
 
 def angles(curves: Curves, row: Ints, fraction: Floats) -> Floats:

@@ -176,6 +176,23 @@ class Ruled:
         return (high_um - low_um) * (low + 4.0 * middle + high) / 6.0
 
 
+_UNEVEN: Final = 3.0
+"""Partners, one of which has so many times the share of its contour that the other has, are most likely not meant for
+each other: a square over a circle has 1.27, a slot over its taper of 10° 1.5."""
+_SHORT_UM: Final = 500.0
+"""Partners that are both shorter belong to corners."""
+_STANDS_UM: Final = 1.0
+"""What is shorter stands at a corner, but for rounding, while its partner moves."""
+
+
+def uneven_partners(lower_um: Floats, upper_um: Floats) -> Bools:
+    """(n,) whether partners are of very unequal length, µm, each against the size of its contour."""
+    lower, upper = (length / max(float(length.sum()), 1.0) for length in (lower_um, upper_um))
+    is_wall = (np.maximum(lower_um, upper_um) > _SHORT_UM) & (np.minimum(lower_um, upper_um) > _STANDS_UM)
+    uneven: Bools = is_wall & (np.maximum(lower, upper) > _UNEVEN * np.minimum(lower, upper))
+    return uneven
+
+
 class _Chords(NamedTuple):
     """Row (k,) of each chord, and the shares (k,) of the row from which and to which it leads."""
 

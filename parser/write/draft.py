@@ -174,11 +174,14 @@ class Written(NamedTuple):
         (m,) row of the draft that each of its blocks is of; a row may make no block, or some.
     ramp_ms
         Acceleration time that it sets, as its shortest blocks ask for it; 0 where it leaves that to the card.
+    upper
+        Text of the upper contour, block by block, where that has one of its own, as in 3B; else None.
     """
 
     text: str
     row: Ints
     ramp_ms: int = 0
+    upper: str | None = None
 
 
 def draft_of(toolpath: Toolpath) -> Draft:

@@ -48,25 +48,16 @@ def written_3b(draft: Draft, choices: ThreeBChoices) -> Written:
     """Text of a draft in 3B, or in 4B where the choices have a curve mark for each row (docs/3b.md §1, §2, §6).
 
     A jump stands behind a pause: one that is placed as a start node, any other as a line in the air. Blocks that whole
-    µm leave no length are left out.
+    µm leave no length are left out; of two contours, which are two texts with the same blocks, where both do not move.
     """
     words = _words_of(draft)
-    return _written(draft, choices, words, words.words.count_um > 0)
-
-
-def written_pair(draft: Draft, choices: ThreeBChoices) -> tuple[Written, Written]:
-    """Texts of both contours of a draft in 3B, with the same blocks: one without a step has a partner that moves.
-
-    ValueError for a draft of one contour.
-    """
+    moves = words.words.count_um > 0
     if draft.upper is None:
-        raise ValueError("a draft of one contour")
-    nowhere = np.full_like(draft.told_um, np.nan)
-    drafts = draft, replace(draft, curves=draft.upper, told_um=nowhere, words=None)
-    words = [_words_of(of) for of in drafts]
-    moves = (words[0].words.count_um > 0) | (words[1].words.count_um > 0)
-    lower, upper = (_written(of, choices, said, moves) for of, said in zip(drafts, words, strict=True))
-    return lower, upper
+        return _written(draft, choices, words, moves)
+    above = replace(draft, curves=draft.upper, told_um=np.full_like(draft.told_um, np.nan), words=None, upper=None)
+    others = _words_of(above)
+    moves |= others.words.count_um > 0
+    return _written(draft, choices, words, moves)._replace(upper=_written(above, choices, others, moves).text)
 
 
 def _written(draft: Draft, choices: ThreeBChoices, said: Chained, moves: Bools) -> Written:

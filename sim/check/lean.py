@@ -1,5 +1,6 @@
 """How a program is to lean, before anything moves: by its own words, by what is told beside it, or by two contours."""
 
+from itertools import zip_longest
 from typing import NamedTuple
 
 import numpy as np
@@ -96,14 +97,13 @@ def leaning_offset(offset: Offset | None, taper: TaperSettings | None) -> Offset
 
 
 def _refuse_other_rounds(drawn: Program, plane: Offsetting, top: Offsetting) -> None:
-    rounds = [[passed.round for passed in of.passed.rounds] for of in (plane, top)]
-    if rounds[0] == rounds[1]:
+    """ProgramError (3B705) where the offsets of two contours run along them in different rounds."""
+    below, above = ([passed.round for passed in of.passed.rounds] for of in (plane, top))
+    if below == above:
         return
-    other = next((a for a, b in zip(*rounds, strict=False) if a != b), rounds[0][-1] if rounds[0] else None)
+    row = next((ours.begin for ours, theirs in zip_longest(below, above) if ours and ours != theirs), 0)
     n = len(drawn.toolpath)
-    found = at_block(
-        drawn.toolpath, drawn.lines, "3B705", other.begin if other else 0, what="pair-rounds", lower=n, upper=n
-    )
+    found = at_block(drawn.toolpath, drawn.lines, "3B705", row, what="pair-rounds", lower=n, upper=n)
     raise ProgramError(found, excerpt=drawn.excerpt(found.line))
 
 

@@ -9,6 +9,7 @@ from controller.taper.tilted import TiltedPath, section_toolpath
 from parser.dialect.reader import at_block
 from parser.findings.codes import Severity
 from parser.findings.findings import Finding, Value
+from parser.geometry.ruled import uneven_partners
 from parser.program import Program
 from parser.shape.contours import contour_rows
 from parser.shape.passes import find_passes
@@ -20,13 +21,6 @@ from sim.check.travel import ROUNDING_UM
 from sim.setup.machine.guides import Guides
 from sim.setup.machine.table import TableModel
 
-_UNEVEN: Final = 3.0
-"""Matched blocks, one of which is so many times as long for its plane as the other, are most likely not meant for each
-other: a square beside a circle has 1.27, a slot beside its taper of 10° 1.5."""
-_SHORT_UM: Final = 500.0
-"""Blocks that are shorter in both planes belong to corners."""
-_STANDS_UM: Final = 1.0
-"""What is shorter stands at a corner, but for rounding."""
 _HAIR_UM: Final = 1.0
 """By so much a path may leave the travel: the lower guide stands at whole steps."""
 _OFFSET_UM: Final = 1.0
@@ -144,14 +138,11 @@ def _uneven(program: Program, path: TiltedPath) -> Iterator[Finding]:
     if path.angle_rad is not None:
         return
     rows, n = np.concatenate([np.zeros(0, dtype=np.int64), *path.loops]), len(program.toolpath)
-    lengths = [np.bincount(path.source_row[rows], of.length_um[rows], n) for of in path.faces]
-    lower, upper = (length / max(float(length.sum()), 1.0) for length in lengths)
-    longer, shorter = np.maximum(lower, upper), np.minimum(lower, upper)
-    long = (np.maximum(*lengths) > _SHORT_UM) & (np.minimum(*lengths) > _STANDS_UM)
-    found = np.flatnonzero(long & (longer > _UNEVEN * shorter))
+    lower, upper = (np.bincount(path.source_row[rows], of.length_um[rows], n).astype(np.float64) for of in path.faces)
+    found = np.flatnonzero(uneven_partners(lower, upper))
     if len(found):
         row = int(found[0])
-        values = {"lower_mm": mm(float(lengths[0][row])), "upper_mm": mm(float(lengths[1][row]))}
+        values = {"lower_mm": mm(float(lower[row])), "upper_mm": mm(float(upper[row]))}
         yield _at(program, "3B706", row, **values, more=len(found) - 1)
 
 

@@ -29,7 +29,7 @@ from sim.check.closures import OpenContour
 from sim.check.lean import own_offsets
 from sim.check.path_checks import Checked, Demands, run_checks
 from sim.make.conversion_proof import Proof, proof
-from sim.make.wanted import Wanted, carried_events, draft_for, read_with, written, written_above
+from sim.make.wanted import Wanted, carried_events, draft_for, read_with, written
 
 _ANGLES: Final = "AT"
 
@@ -272,12 +272,12 @@ def _proved(program: Program, path: Toolpath, draft: Draft, wanted: Wanted, *, i
     """The written program, or what speaks against it; its contours may be open where one of the source is."""
     made = written(draft, wanted)
     data = made.text.encode()
-    above = written_above(draft, wanted)
+    upper_data = made.upper.encode() if made.upper is not None else None
     choices = read_with(draft, wanted)
     try:
         back = load_program(data, f"{program.name} → {wanted.language}", choices)
-        if above is not None:
-            back = paired(back, load_program(above.text.encode(), back.name, choices))
+        if upper_data is not None:
+            back = paired(back, load_program(upper_data, back.name, choices))
     except ProgramError as error:
         return Refused("result", program, (error.finding,))
     checked = run_checks(back, Demands(may_stay_open=is_open))
@@ -309,7 +309,7 @@ def _proved(program: Program, path: Toolpath, draft: Draft, wanted: Wanted, *, i
         choices.registers,
         made.ramp_ms,
         stays_open,
-        None if above is None else above.text.encode(),
+        upper_data,
     )
 
 

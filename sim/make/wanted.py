@@ -22,7 +22,7 @@ from parser.write.draft import (
 )
 from parser.write.iso import IsoChoices, iso_choices, registers_of, written_iso
 from parser.write.pmac import PmacChoices, blocks_of_text, ramp_of, written_pmac
-from parser.write.threeb import Form, ThreeBChoices, with_codes, written_3b, written_pair
+from parser.write.threeb import Form, ThreeBChoices, with_codes, written_3b
 from parser.write.two_contours import straightened
 
 Language = Literal["3b", "4b", "iso", "pmac"]
@@ -151,40 +151,21 @@ def begun(draft: Draft, wanted: Wanted) -> Draft:
 
 
 def written(draft: Draft, wanted: Wanted) -> Written:
-    """The text of a draft, its lines ended as wanted. SettingsError where the dialect cannot say what it needs.
-
-    In 3B that of its lower contour.
-    """
+    """The text of a draft, its lines ended as wanted. SettingsError where the dialect cannot say what it needs."""
     if wanted.iso is not None:
         made = written_iso(draft, wanted.iso)
     elif wanted.pmac is not None:
         made = _written_pmac(draft, wanted.pmac)
-    elif draft.upper is not None:
-        made, _ = written_pair(draft, _three_b(draft, wanted))
     else:
-        made = written_3b(draft, _three_b(draft, wanted))
-    return _ended(made, wanted)
-
-
-def written_above(draft: Draft, wanted: Wanted) -> Written | None:
-    """The text of the upper contour of a draft, where the language has a text for each; else None."""
-    if draft.upper is None or wanted.iso is not None or wanted.pmac is not None:
-        return None
-    return _ended(written_pair(draft, _three_b(draft, wanted))[1], wanted)
+        marks = curve_marks(draft.curves) if wanted.language == "4b" else None
+        made = written_3b(draft, ThreeBChoices(wanted.form, wanted.name, wanted.offset_um, marks))
+    upper = made.upper and made.upper.replace("\n", wanted.newline)
+    return made._replace(text=made.text.replace("\n", wanted.newline), upper=upper)
 
 
 def upper_file(output: Path) -> Path:
     """Where the upper contour is written, beside the lower one: ``part-upper.3b`` of ``part.3b``."""
     return output.with_stem(f"{output.stem}-upper")
-
-
-def _three_b(draft: Draft, wanted: Wanted) -> ThreeBChoices:
-    marks = curve_marks(draft.curves) if wanted.language == "4b" else None
-    return ThreeBChoices(wanted.form, wanted.name, wanted.offset_um, marks)
-
-
-def _ended(made: Written, wanted: Wanted) -> Written:
-    return made._replace(text=made.text.replace("\n", wanted.newline))
 
 
 def _written_pmac(draft: Draft, choices: PmacChoices) -> Written:

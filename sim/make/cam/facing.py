@@ -9,16 +9,13 @@ from typing import Final, Literal, NamedTuple
 
 import numpy as np
 
-from parser.geometry.along import along_um, directions, places
+from parser.geometry.along import directions, places, places_at
 from parser.geometry.curves import Bools, Curves, Floats, Ints, curves_between, total_before
-from parser.geometry.distance import distance_to_curves
-from parser.geometry.ruled import Ruled
+from parser.geometry.distance import lengths_to
+from parser.geometry.ruled import Ruled, uneven_partners
 
 MatchedBy = Literal["curves", "corners", "nearest", "length"]
 _CORNER_RAD: Final = np.radians(10.0)
-_UNEVEN: Final = 3.0
-"""Curves whose shares of their contours differ more are no partners: a check tells of them (3B706)."""
-_SHORT_UM: Final = 500.0
 _SNAP_UM: Final = 3.0
 """Ends of curves that face each other but for so much are partners, so that no sliver is left between them."""
 _NODES: Final = 5
@@ -40,20 +37,13 @@ class Facing(NamedTuple):
     by: MatchedBy
 
     def stretch(self, begin_um: float, way_um: float) -> tuple[Curves, Curves]:
-        """Pieces of both contours from a length along the lower one, over a way along it; backwards below 0."""
+        """Pieces of both from a length µm along the lower contour, over a way µm along it; backwards below 0."""
         before = total_before(self.lower.length_um)
-        whole = float(self.lower.length_um.sum())
         low, high = sorted((begin_um, begin_um + way_um))
-        rounds = np.arange(np.floor(low / whole), np.ceil(high / whole) + 1)
-        borders = (before[None, :] + rounds[:, None] * whole).ravel()
+        rounds = np.arange(np.floor(low / before[-1]), np.ceil(high / before[-1]) + 1)
+        borders = (before + rounds[:, None] * before[-1]).ravel()
         borders = borders[(borders > low + _SNAP_UM) & (borders < high - _SNAP_UM)]
-        at = np.concatenate([[low], borders, [high]])
-        middle = np.mod(0.5 * (at[1:] + at[:-1]), whole)
-        row = np.clip(np.searchsorted(before, middle, side="right") - 1, 0, len(self.lower) - 1)
-        shift = 0.5 * (at[1:] + at[:-1]) - middle
-        size = self.lower.length_um[row]
-        since, until = ((end - shift - before[row]) / size for end in (at[:-1], at[1:]))
-        since, until = np.clip(since, 0.0, 1.0), np.clip(until, 0.0, 1.0)
+        row, since, until = _pieces(self.lower, np.concatenate([[low], borders, [high]]))
         if way_um < 0.0:
             row, since, until = row[::-1], until[::-1], since[::-1]
         return _part(self.lower, row, since, until), _part(self.upper, row, since, until)
@@ -80,22 +70,19 @@ def facing(lower: Curves, upper: Curves) -> Facing:
     """Two closed contours that run the same way round, each curve from the end of the one before it, matched.
 
     Where several matches are possible, the one with the fewest uneven partners; of those, the one whose partners lie
-    nearest to each other.
+    nearest to each other. A check tells of uneven ones (3B706).
     """
     found = [_faced(lower, upper, anchors, by) for anchors, by in _matches(lower, upper)]
     return min(found, key=lambda each: (_uneven(each.lower.length_um, each.upper.length_um), each.most_aside_um()))
 
 
 def _uneven(lower_um: Floats, upper_um: Floats) -> int:
-    """How many partners have shares of their contours that differ too much, slivers aside."""
-    shares = [length / length.sum() for length in (lower_um, upper_um)]
-    long = np.maximum(lower_um, upper_um) > _SHORT_UM
-    return int(np.count_nonzero(long & (np.maximum(*shares) > _UNEVEN * np.minimum(*shares))))
+    return int(np.count_nonzero(uneven_partners(lower_um, upper_um)))
 
 
 def _faced(lower: Curves, upper: Curves, anchors: "_Anchors", by: MatchedBy) -> Facing:
     at_lower, at_upper = _borders(anchors, lower, upper)
-    return Facing(_cut(lower, at_lower), _cut(upper, at_upper), by)
+    return Facing(_part(lower, *_pieces(lower, at_lower)), _part(upper, *_pieces(upper, at_upper)), by)
 
 
 class _Anchors(NamedTuple):
@@ -113,8 +100,7 @@ def _matches(lower: Curves, upper: Curves) -> list[tuple[_Anchors, MatchedBy]]:
     for (these, those), by in alike:
         if len(these) == len(those) > 1:
             turned = _turned(these, those, lower, upper)
-            ways = [np.diff(np.append(of, of[0] + total)) for of, total in _with_totals(turned, lower, upper)]
-            if not _uneven(*ways):
+            if not _uneven(*(np.diff(of) for of in _all_round(turned, lower, upper))):
                 return [(turned, by)]
     below, above = _nearest(lower, upper, corners[0]), _nearest(upper, lower, corners[1])
     single = _nearest(lower, upper, starts[0][:1])
@@ -126,7 +112,7 @@ def _nearest(this: Curves, other: Curves, at_um: Floats) -> _Anchors | None:
     """Places of a contour with those of another one that lie nearest; None without places, or where they mix."""
     if not len(at_um):
         return None
-    on = _lengths_nearest(other, _places_at(this, at_um))
+    on = lengths_to(other, _places_at(this, at_um))
     total = float(other.length_um.sum())
     steps = np.mod(np.diff(np.append(on, on[0])), total)
     if len(on) > 1 and ((steps < _SNAP_UM).any() or abs(float(steps.sum()) - total) > _SNAP_UM):
@@ -134,8 +120,10 @@ def _nearest(this: Curves, other: Curves, at_um: Floats) -> _Anchors | None:
     return _Anchors(at_um, on[0] + np.mod(on - on[0], total))
 
 
-def _with_totals(turned: _Anchors, lower: Curves, upper: Curves) -> list[tuple[Floats, float]]:
-    return [(turned.lower_um, float(lower.length_um.sum())), (turned.upper_um, float(upper.length_um.sum()))]
+def _all_round(anchors: _Anchors, lower: Curves, upper: Curves) -> tuple[Floats, Floats]:
+    """The lengths of anchors along both contours, the first ones again behind a whole round."""
+    below, above = (np.append(at, at[0] + of.length_um.sum()) for at, of in zip(anchors, (lower, upper), strict=True))
+    return below, above
 
 
 def _turned(lower_um: Floats, upper_um: Floats, lower: Curves, upper: Curves) -> _Anchors:
@@ -159,11 +147,10 @@ def _is_corner(curves: Curves) -> Bools:
 
 def _borders(anchors: _Anchors, lower: Curves, upper: Curves) -> _Anchors:
     """Lengths of all places at which a piece of either contour ends, and of their partners; the first again behind."""
-    totals = float(lower.length_um.sum()), float(upper.length_um.sum())
-    known = [np.append(of, of[0] + total) for of, total in zip(anchors, totals, strict=True)]
+    known = _all_round(anchors, lower, upper)
     starts = [
-        first + np.mod(total_before(of.length_um)[:-1] - first, total)
-        for of, first, total in zip((lower, upper), (known[0][0], known[1][0]), totals, strict=True)
+        at[0] + np.mod(total_before(of.length_um)[:-1] - at[0], of.length_um.sum())
+        for of, at in zip((lower, upper), known, strict=True)
     ]
     below, above = np.interp(starts[1], known[1], known[0]), np.interp(starts[0], known[0], known[1])
     pairs, own, other = (np.stack(columns, axis=1) for columns in (known, (starts[0], above), (below, starts[1])))
@@ -185,15 +172,19 @@ def _are_near(pair: Floats, pairs: Floats) -> Bools:
     return near
 
 
-def _cut(curves: Curves, at_um: Floats) -> Curves:
-    """Pieces of a closed contour between lengths (k + 1,) along it, which may go beyond its end."""
-    before, total = total_before(curves.length_um), float(curves.length_um.sum())
+def _pieces(curves: Curves, at_um: Floats) -> tuple[Ints, Floats, Floats]:
+    """Row (k,) of each piece of a closed contour between lengths (k + 1,) along it, and its shares of that row.
+
+    Lengths may go beyond the end of the contour, and lie before its start.
+    """
+    before = total_before(curves.length_um)
     middle = 0.5 * (at_um[1:] + at_um[:-1])
-    turns = np.floor(middle / total) * total
+    turns = np.floor(middle / before[-1]) * before[-1]
     row = np.clip(np.searchsorted(before, middle - turns, side="right") - 1, 0, len(curves) - 1)
-    size = curves.length_um[row]
-    since, until = (np.clip((end - turns - before[row]) / size, 0.0, 1.0) for end in (at_um[:-1], at_um[1:]))
-    return _part(curves, row, since, until)
+    since, until = (
+        np.clip((end - turns - before[row]) / curves.length_um[row], 0.0, 1.0) for end in (at_um[:-1], at_um[1:])
+    )
+    return row, since, until
 
 
 def _part(curves: Curves, row: Ints, since: Floats, until: Floats) -> Curves:
@@ -207,15 +198,4 @@ def _places_at(curves: Curves, at_um: Floats) -> Floats:
     """Places (k, 2) at lengths along a closed contour."""
     before = total_before(curves.length_um)
     row = np.clip(np.searchsorted(before, at_um, side="right") - 1, 0, len(curves) - 1)
-    return places(curves, row, (at_um - before[row]) / curves.length_um[row])
-
-
-def _lengths_nearest(curves: Curves, place_um: Floats) -> Floats:
-    """Lengths (k,) along a contour of its places nearest to others (k, 2)."""
-    n, before = len(curves), total_before(curves.length_um)
-    found = []
-    for place in place_um:
-        many = np.tile(place, (n, 1))
-        row = int(np.argmin(distance_to_curves(curves, np.arange(n), many[:, 0], many[:, 1])[0]))
-        found.append(float(before[row] + along_um(curves, np.array([row]), place[None, :])[0]))
-    return np.array(found)
+    return places_at(curves, row, at_um - before[row])

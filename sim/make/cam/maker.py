@@ -47,7 +47,6 @@ from sim.make.wanted import (
     encoded,
     read_with,
     written,
-    written_above,
 )
 from sim.measure.compare.compare import compare_program
 from sim.measure.compare.result import FitRequest
@@ -267,8 +266,7 @@ def _fitted(request: PlanRequest, wanted: Wanted, fit_um: float) -> MadeProgram:
     draft = begun(_drafted(plan, wanted, height_over_plane_um(request.scenario)), wanted)
     text, program = _read_back(draft, request.path.stem, wanted)
     off = held_against(draft, text, program.toolpath)
-    above = written_above(draft, wanted)
-    upper_data = None if above is None else encoded(above.text, wanted)
+    upper_data = None if text.upper is None else encoded(text.upper, wanted)
     made = MadeProgram(encoded(text.text, wanted), program, plan, draft, off, upper_data=upper_data)
     if not plan.making.lag_um:
         return made
@@ -279,16 +277,13 @@ def _fitted(request: PlanRequest, wanted: Wanted, fit_um: float) -> MadeProgram:
 def _read_back(draft: Draft, name: str, wanted: Wanted) -> tuple[Written, Program]:
     """The text of a draft, and the program that reading it gives."""
     text = written(draft, wanted)
-    return text, _read(text.text, f"{name}.{wanted.language}", draft, wanted)
-
-
-def _read(text: str, name: str, draft: Draft, wanted: Wanted) -> Program:
-    """The program of the text of a draft, with its upper contour where that has a text of its own."""
-    data, choices = text.encode(wanted.encoding, "replace"), read_with(draft, wanted)
-    program, above = load_program(data, name, choices), written_above(draft, wanted)
-    if above is None:
-        return program
-    return paired(program, load_program(above.text.encode(wanted.encoding, "replace"), name, choices))
+    choices, name = read_with(draft, wanted), f"{name}.{wanted.language}"
+    program, *above = (
+        load_program(each.encode(wanted.encoding, "replace"), name, choices)
+        for each in (text.text, text.upper)
+        if each is not None
+    )
+    return text, paired(program, *above) if above else program
 
 
 def _is_surely_within(done: MadeProgram) -> bool:
@@ -373,7 +368,10 @@ def remarked(done: MadeProgram, texts: Sequence[str], wanted: Wanted) -> MadePro
     lines = [_remark(text, is_iso=wanted.iso is not None) for text in texts]
     first, newline, rest = done.program.text.partition(wanted.newline)
     text = newline.join([first, *lines, rest])
-    program = _read(text, done.program.name, done.draft, wanted)
+    data = text.encode(wanted.encoding, "replace")
+    program = load_program(data, done.program.name, read_with(done.draft, wanted))
+    if done.upper_data is not None:  # a remark adds no block
+        program = replace(program, toolpath=replace(program.toolpath, upper=done.program.toolpath.upper))
     return done._replace(data=encoded(text, wanted), program=program)
 
 

@@ -1,7 +1,4 @@
-"""What is to be cut: figures, how the wire comes to them, the passes over them, on which side and which way round.
-
-On which side of each contour the wire runs, and which way round.
-"""
+"""What is to be cut: figures, how the wire comes to them, the passes over them."""
 
 import math
 from collections.abc import Sequence
@@ -13,7 +10,7 @@ from parser.findings.catalogue import Remark
 from parser.geometry.curves import Curves, Floats, Ints, extents
 from parser.toolpath import Point
 from sim.make.cam.facing import Facing
-from sim.setup.making import LeadIn, Making, SideWish
+from sim.setup.making import LeadIn, Making
 from sim.setup.taper import TaperSettings
 
 FigureKind = Literal["hole", "outline"]
@@ -360,42 +357,3 @@ class CutPlan(NamedTuple):
     def doubts(self) -> tuple[Remark, ...]:
         """What was read of the drawing and may be meant otherwise: its unit."""
         return tuple(note for note in self.drawing.notes if note.name == "doubtful-unit")
-
-
-_MOST_NAMED = 10
-
-
-class Way(NamedTuple):
-    """Which way round a first pass runs, and on which side of it the contour's wire is then."""
-
-    is_ccw: bool
-    side: Side
-
-
-def with_sides(figures: Sequence[Figure], making: Making) -> tuple[Figure, ...]:
-    """The figures with the sides that are asked for, for their layers or for all."""
-    of_layer = {wish.layer.casefold(): wish.side for wish in making.layers if wish.side is not None}
-    return tuple(_with_side(figure, of_layer.get(figure.layer.casefold(), making.side)) for figure in figures)
-
-
-def refuse_strange_layers(figures: Sequence[Figure], making: Making) -> None:
-    """CannotCutError, ``no-such-layer``, where a layer for which something is asked has no figure: a slip, maybe."""
-    layers = {figure.layer.casefold(): figure.layer for figure in figures}
-    strange = [wish.layer for wish in making.layers if wish.layer.casefold() not in layers]
-    if strange:
-        values = (("layer", strange[0]), ("layers", ", ".join(sorted(layers.values())[:_MOST_NAMED])))
-        raise CannotCutError(Refusal("no-such-layer", (), values))
-
-
-def _with_side(figure: Figure, side: SideWish) -> Figure:
-    inside = figure.kind == "hole" if side == "nesting" else side == "inside"
-    return figure._replace(runs_inside=inside)
-
-
-def way_of(figure: Figure, making: Making) -> Way:
-    """Which way the first pass over a figure runs.
-
-    ``one-side`` has the wire on its left: counter-clockwise within a contour, clockwise around one.
-    """
-    is_ccw = figure.runs_inside if making.direction == "one-side" else making.direction == "ccw"
-    return Way(is_ccw, Side.LEFT if is_ccw == figure.runs_inside else Side.RIGHT)

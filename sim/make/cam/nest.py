@@ -23,9 +23,9 @@ from parser.units import mm
 from sim.make.cam.apart import LEAST_EDGE_UM
 from sim.make.cam.entries import nearest_of
 from sim.make.cam.leads import room_of, run_back
-from sim.make.cam.model import CannotCutError, Figure, FigureCut, PassCut, Refusal, Thread, way_of
+from sim.make.cam.model import CannotCutError, Figure, FigureCut, PassCut, Refusal, Thread
 from sim.make.cam.offset_path import offset_path
-from sim.make.cam.passes import parted
+from sim.make.cam.passes import parted, way_of
 from sim.setup.making import Making
 
 _MOST_PAIRS: Final = 20_000_000

@@ -22,7 +22,7 @@ from sim.make.cam.frames import Boxes, frames
 from sim.make.cam.loose import Closing, Loose, loose_of
 from sim.make.cam.model import Bridge, CannotCutError, Figure, Parts, Refusal, Uncut
 from sim.make.cam.picks import Pickable, picked
-from sim.setup.making import Making
+from sim.setup.making import Making, SideWish
 from sim.setup.part import GAP_UM
 
 _MOST_PLACES: Final = 20  # of one refusal
@@ -343,3 +343,26 @@ def _order(found: _Found) -> Ints:
     low = np.round(found.low_um)
     start = np.round([_start(found, at) for at in range(len(low))])
     return np.lexsort([found.area_um2, start[:, 1], low[:, 1], low[:, 0]])
+
+
+_MOST_NAMED: Final = 10
+
+
+def with_sides(figures: Sequence[Figure], making: Making) -> tuple[Figure, ...]:
+    """The figures with the sides that are asked for, for their layers or for all."""
+    of_layer = {wish.layer.casefold(): wish.side for wish in making.layers if wish.side is not None}
+    return tuple(_with_side(figure, of_layer.get(figure.layer.casefold(), making.side)) for figure in figures)
+
+
+def refuse_strange_layers(figures: Sequence[Figure], making: Making) -> None:
+    """CannotCutError, ``no-such-layer``, where a layer for which something is asked has no figure: a slip, maybe."""
+    layers = {figure.layer.casefold(): figure.layer for figure in figures}
+    strange = [wish.layer for wish in making.layers if wish.layer.casefold() not in layers]
+    if strange:
+        values = (("layer", strange[0]), ("layers", ", ".join(sorted(layers.values())[:_MOST_NAMED])))
+        raise CannotCutError(Refusal("no-such-layer", (), values))
+
+
+def _with_side(figure: Figure, side: SideWish) -> Figure:
+    inside = figure.kind == "hole" if side == "nesting" else side == "inside"
+    return figure._replace(runs_inside=inside)

@@ -23,24 +23,37 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.geometry.along import along_um, places_at
+from controller.offset.shifted import Side
+from parser.geometry.along import places_at
 from parser.geometry.curves import Curves, curves_between, joined, total_before
-from parser.geometry.distance import distance_to_curves
+from parser.geometry.distance import lengths_to
 from parser.toolpath import Point
 from sim.make.cam.guides import OVERLAP_LAGS, before_corner_um
 from sim.make.cam.leads import lead_in, lead_out, run_back
-from sim.make.cam.model import CannotCutError, Figure, FigureCut, PassCut, Refusal, Thread, way_of
+from sim.make.cam.model import CannotCutError, Figure, FigureCut, PassCut, Refusal, Thread
 from sim.make.cam.offset_path import SHORT_UM, offset_path
 from sim.setup.making import Making
 
 
+class Way(NamedTuple):
+    """Which way round a first pass runs, and on which side of it the contour's wire is then."""
+
+    is_ccw: bool
+    side: Side
+
+
+def way_of(figure: Figure, making: Making) -> Way:
+    """Which way the first pass over a figure runs.
+
+    ``one-side`` has the wire on its left: counter-clockwise within a contour, clockwise around one.
+    """
+    is_ccw = figure.runs_inside if making.direction == "one-side" else making.direction == "ccw"
+    return Way(is_ccw, Side.LEFT if is_ccw == figure.runs_inside else Side.RIGHT)
+
+
 def length_to(way: Curves, place_um: Point) -> float:
     """How far µm along a way its place nearest to another lies."""
-    rows = np.arange(len(way))
-    off = distance_to_curves(way, rows, np.full(len(way), place_um.x), np.full(len(way), place_um.y))[0]
-    row = int(np.argmin(off))
-    on = along_um(way, rows[row : row + 1], np.array([place_um]))
-    return float(way.length_um[:row].sum() + on[0])
+    return float(lengths_to(way, np.array([place_um]))[0])
 
 
 def begun_at(way: Curves, place_um: Point) -> Curves:

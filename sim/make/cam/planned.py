@@ -24,12 +24,10 @@ from sim.make.cam.model import (
     Parts,
     Refusal,
     Thread,
-    refuse_strange_layers,
-    with_sides,
 )
 from sim.make.cam.nest import InKerf, cut_in_kerf, nests_of, refuse_misfits
 from sim.make.cam.order import in_order
-from sim.make.cam.parts import parts_of
+from sim.make.cam.parts import parts_of, refuse_strange_layers, with_sides
 from sim.make.cam.passes import figure_cut, offsets_of
 from sim.make.cam.picks import spare_notes
 from sim.make.cam.threads import thread_notes, threads_of

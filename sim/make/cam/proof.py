@@ -24,7 +24,8 @@ from parser.units import mm
 from sim.base.progress import Progress, silent
 from sim.cut.pieces.pieces import Piece, Pieces
 from sim.make.cam.lean.walls import ruled_walls_off, wall_faults, walls_off
-from sim.make.cam.model import CutPlan, FigureCut, NotProved, with_sides
+from sim.make.cam.model import CutPlan, FigureCut, NotProved
+from sim.make.cam.parts import with_sides
 from sim.make.cam.proof_model import Faces, Fault, Proof, WallOff
 from sim.make.cam.proof_run import AsRun, as_run
 from sim.make.cam.target import Target, closed_shapes, target_of

@@ -16,13 +16,13 @@ from controller.taper.two_contours import matched_offsets
 from parser.controller_words import Compensation, CompensationRules
 from parser.findings.catalogue import Remark
 from parser.geometry.curves import Curves, Floats, curves_between, total_before
+from parser.geometry.distance import lengths_to
 from parser.text.source import Source
 from parser.toolpath import Point, Toolpath
 from parser.write.draft import Draft
 from sim.make.cam.compensated_draft import draft_of_cuts, kept_draft
 from sim.make.cam.facing import Facing, facing
 from sim.make.cam.model import CannotCutError, CutPlan, Figure, FigureCut, PassCut, Refusal
-from sim.make.cam.passes import length_to
 from sim.measure.compare.rings import orientation, polygon
 
 _ALIKE = 0.1
@@ -77,8 +77,8 @@ def draft_of_both(
         cuts = tuple(_widened(cut, faced, height_um) for cut, faced in zip(plan.cuts, plan.facings, strict=True))
         plan = plan._replace(cuts=cuts)
     draft = kept_draft(plan, [pair.lower for pair in pairs], rules or CompensationRules(outer="lengthen"))
-    both = replace(draft, upper=draft_of_cuts(plan.visits, [pair.upper for pair in pairs]).curves)
-    return both if rules is not None else _worked_in(both)
+    upper = draft_of_cuts(plan.visits, [pair.upper for pair in pairs]).curves
+    return replace(draft, upper=upper) if rules is not None else _worked_in(draft, upper)
 
 
 def _widened(cut: FigureCut, faced: Facing, height_um: float) -> FigureCut:
@@ -98,7 +98,7 @@ def _paired(cut: FigureCut, faced: Facing) -> _Paired:
     lower, upper = [], []
     for pass_ in cut.passes:
         way_um = float(pass_.along.length_um.sum()) * orientation(pass_.along)
-        low, high = faced.stretch(length_to(faced.lower, Point(*pass_.along.start_um[0].tolist())), way_um)
+        low, high = faced.stretch(float(lengths_to(faced.lower, pass_.along.start_um[:1])[0]), way_um)
         lower.append(pass_._replace(along=low))
         begin, end = high.start_um[0] - low.start_um[0], high.end_um[-1] - low.end_um[-1]
         into, out = _led(pass_.into, begin, is_in=True), _led(pass_.out, end, is_in=False)
@@ -116,11 +116,10 @@ def _led(lead: Curves, aside_um: Floats, *, is_in: bool) -> Curves:
     return curves_between(start, end, lead.center_um, np.zeros(len(lead)))
 
 
-def _worked_in(draft: Draft) -> Draft:
-    """A draft with the offsets of both contours in their paths."""
-    compensation, upper = draft.compensation, draft.upper
-    assert compensation is not None  # noqa: S101 - just told
-    assert upper is not None  # noqa: S101 - just told
+def _worked_in(draft: Draft, upper: Curves) -> Draft:
+    """A draft and its upper contour with their offsets in their paths."""
+    compensation = draft.compensation
+    assert compensation is not None  # noqa: S101 - a kept draft has one
     lower, above = (compensated(_toolpath(of, compensation)).path for of in (draft.curves, upper))
     both = matched_offsets(lower, above)
     drawn = lower.source_row[both.source_row]

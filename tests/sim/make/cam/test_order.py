@@ -8,8 +8,10 @@ import pytest
 from parser.drawing.model import Entity
 from parser.geometry.curves import curves_between
 from parser.toolpath import Point
-from sim.make.cam.model import CannotCutError, Entry, Figure, Thread, refuse_strange_layers, way_of, with_sides
+from sim.make.cam.model import CannotCutError, Entry, Figure, Thread
 from sim.make.cam.order import around, in_order
+from sim.make.cam.parts import refuse_strange_layers, with_sides
+from sim.make.cam.passes import way_of
 from sim.setup.making import LayerWish, Making
 
 MM = 1000.0
