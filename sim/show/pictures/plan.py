@@ -62,6 +62,7 @@ def plan_bounds_um(plan: CutPlan) -> Floats:
     """Box around all that is shown, (2, 2), at least 0.1 mm wide."""
     boxes = [bounds_um(curve) for cut in plan.cuts for curve in _curves(cut) if len(curve)]
     boxes += [bounds_um(each.contour) for each in plan.uncut if each.why != "frame"]
+    boxes += [bounds_um(each.upper) for each in plan.facings]
     places = np.array([cut.thread.place_um for cut in plan.cuts])
     low = np.min([*(box[0] for box in boxes), *places], axis=0)
     high = np.max([*(box[1] for box in boxes), *places], axis=0)
@@ -148,6 +149,8 @@ def _draw_ways(canvas: Canvas, page: Page, plan: CutPlan) -> None:
             for lead in (pass_.into, pass_.out):
                 _stroke(canvas, line_px(lead, page.view), Paint.ACTUAL, _LEAD_WIDTH * unit)
         _stroke(canvas, line_px(cut.figure.contour, page.view), Paint.IDEAL, style.IDEAL_WIDTH * unit)
+    for faced in plan.facings:
+        _stroke(canvas, line_px(faced.upper, page.view), Paint.TOP, style.ACTUAL_WIDTH * unit)
     for places in (each for each in _jumps(plan) if len(each) > 1):
         line = page.view.to_px(np.array(places))
         canvas.dashed(line, Paint.JUMP, style.JUMP_WIDTH * unit, style.DASH * unit, style.DASH_GAP * unit)
@@ -226,6 +229,7 @@ def _entries(plan: CutPlan, say: Words) -> list[Entry]:
         ("outline" in kinds, Entry(swatch(Paint.PART, Paint.PART_EDGE, style.EDGE_WIDTH), say("cut.part"))),
         ("hole" in kinds, Entry(swatch(Paint.SLUG, Paint.SLUG_EDGE, style.EDGE_WIDTH), say("program.plan-waste"))),
         (True, Entry(stroke(Paint.IDEAL, style.IDEAL_WIDTH), say("program.plan-contour"))),
+        (bool(plan.facings), Entry(stroke(Paint.TOP, style.ACTUAL_WIDTH), say("taper.upper-contour"))),
         *((True, entry) for entry in _pass_entries(plan.cuts, say)),
         *(
             (any(_paint_of(plan, uncut) is paint for uncut in plan.uncut), Entry(dashes(paint, _UNCUT_WIDTH), say(key)))

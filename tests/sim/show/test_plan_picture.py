@@ -100,3 +100,23 @@ def test_what_is_not_cut_is_dashed_in_the_colour_of_what_it_is(tmp_path: Path) -
         assert said in text
         assert plan_bounds_um(one)[1, 0] >= 30_000.0
         assert (np.asarray(draw_plan(pixels(1200), one).image()) == LIGHT[there]).all(axis=-1).sum() > 300
+
+
+def test_a_plan_of_two_drawings_shows_all_of_the_upper_contours(tmp_path: Path) -> None:
+    def lower(space: Modelspace) -> None:
+        space.add_circle((4, 4), 3.0)
+
+    def upper(space: Modelspace) -> None:
+        space.add_lwpolyline([(0, 0), (8, 0), (8, 8), (0, 8)], close=True)
+
+    (tmp_path / "top").mkdir()
+    making = Making(upper=drawn(tmp_path / "top", upper))
+    both = planned(PlanRequest(drawn(tmp_path, lower), making, SCENARIO))
+    low, high = plan_bounds_um(both)
+    assert (low <= 0.0).all()
+    assert (high >= 8000.0).all()
+    shown = [
+        (np.asarray(draw_plan(pixels(800), each).image()) == LIGHT[Paint.TOP]).all(axis=2).any()
+        for each in (both, both._replace(facings=()))
+    ]
+    assert shown == [True, False]
