@@ -268,6 +268,7 @@ def _lean_table(taper: TaperEntry) -> ReportTable:
             _number("lean-most", [taper["lean_most_deg"]], "°", 3),
             millimetres("uv-walls", [taper["uv_most_um"]["side"]]),
             millimetres("uv-most", [taper["uv_most_um"]["corner"]]),
+            _number("four-axes-time", [taper["time_s"]], "s", 2),
             _number("volume-programmed", [volume["programmed"]], "mm³", 2),
             _number("volume-pieces", [volume["piece"]], "mm³", 2),
             yes_or_no("guides-assumed", [taper["guides_assumed"]]),

@@ -117,6 +117,8 @@ def _facts(run: DryRun, report: ReportDocument, pieces: Pieces) -> Iterator[Fact
     yield Fact(bilingual("sheet.passes"), _passes(report))
     yield Fact(bilingual("sheet.length"), bilingual("sheet.length-is", length=f"{mm(run.ran_um):,.3f}"))
     yield Fact(bilingual("sheet.time"), _time(run))
+    if report["taper"] is not None:
+        yield Fact(bilingual("sheet.four-axes"), lasting(report["taper"]["time_s"]))
     yield Fact(bilingual("sheet.pieces"), _pieces(pieces))
 
 

@@ -56,7 +56,9 @@ def test_a_wire_that_leans_is_set_at_the_control_by_the_sheet() -> None:
     assert fact(made, "taper") == f"set 3°, upper end left of travel; U, V go up to {most:.3f} mm"
     guides = "guides assumed 60 mm below the work, 100 mm above it"
     assert fact(made, "planes and guides") == f"program 2 mm over the bottom; {guides}"
-    assert not [each for each in sheet(SQUARE + "DD\n").facts if each.name.en in {"taper", "planes and guides"}]
+    assert fact(made, "time of four axes").endswith(" s")
+    upright = {each.name.en for each in sheet(SQUARE + "DD\n").facts}
+    assert not upright & {"taper", "planes and guides", "time of four axes"}
 
 
 @pytest.mark.parametrize("kerf", [True, False])
