@@ -8,7 +8,8 @@ import numpy as np
 from controller.taper.tilted import Lean, TiltedPath, figure_lean, tilted, told_lean
 from controller.taper.two_contours import between_contours, matched_offsets, matched_rows
 from parser.controller_words import Taper
-from parser.dialect.reader import at_block
+from parser.dialect.reader import Choices, at_block
+from parser.findings.codes import Severity
 from parser.findings.errors import ProgramError, SettingsError
 from parser.geometry.curves import Floats
 from parser.program import Program, load_program, paired, upper_program
@@ -16,7 +17,7 @@ from sim.check.compensation.check import compensation_of, own_compensation
 from sim.check.offset import Offsetting
 from sim.setup.machine.guides import Guides
 from sim.setup.part import Offset
-from sim.setup.taper import TaperSettings, heights_of, refuse_one_height
+from sim.setup.taper import TaperSettings, UpperProgram, heights_of, refuse_one_height
 
 
 class LeanDemands(NamedTuple):
@@ -30,16 +31,29 @@ class LeanDemands(NamedTuple):
 def with_upper(program: Program, taper: TaperSettings | None) -> Program:
     """The program with the upper contour that is told beside it; as it is where none is.
 
-    ProgramError where the upper one is no program, ProgramError (3B705) where their blocks do not match, SettingsError
-    where one of them leans by itself.
+    ProgramError (3B705) where their blocks do not match; SettingsError where the upper one is no program or has a wrong
+    block, and where one of them leans by itself.
     """
     if taper is None or taper.upper is None:
         return program
-    upper = load_program(taper.upper.data, taper.upper.name, program.choices)
+    upper = _upper_read(taper.upper, program.choices)
     for each in (program, upper):
         if each.toolpath.leans:
             raise SettingsError("taper-twice", name=each.name)
     return paired(program, upper)
+
+
+def _upper_read(file: UpperProgram, choices: Choices) -> Program:
+    """The program of an upper contour. SettingsError, which names its file, where a block of it cannot be run."""
+    try:
+        upper = load_program(file.data, file.name, choices)
+    except ProgramError as error:
+        raise SettingsError("upper-is-no-program", name=file.name, why=error.in_both()) from None
+    wrong = next((found for found in upper.findings if found.severity is Severity.ERROR), None)
+    if wrong is not None:
+        why = ProgramError(wrong).in_both()
+        raise SettingsError("upper-is-wrong", name=file.name, line=wrong.line, code=wrong.code, why=why)
+    return upper
 
 
 class Offsets(NamedTuple):

@@ -313,6 +313,19 @@ def test_what_does_not_go_together_is_refused(run: Run) -> None:
         run(taper=angle(3.0, program_plane_um=50_000.0))
 
 
+@pytest.mark.parametrize(
+    ("upper", "complaint"),
+    [
+        (b"0\nSECTION\n2\nENTITIES\n0\nENDSEC\n0\nEOF\n", "upper.3b: this is a DXF drawing"),
+        (b"nothing\n", "upper.3b: no block in the file"),
+        (UPPER.replace(b"B8000B0B8000GXL1", b"B8000B0B8000GYL1", 1), "upper.3b, line 2: 3B202"),
+    ],
+)
+def test_what_is_wrong_with_the_upper_program_names_its_own_file(run: Run, upper: bytes, complaint: str) -> None:
+    with pytest.raises(SettingsError, match=complaint):
+        run(taper=above(upper))
+
+
 def test_two_contours_at_one_height_are_refused(run: Run) -> None:
     with pytest.raises(SettingsError, match="two contours need two heights"):
         run(taper=above(UPPER)._replace(program_plane_um=40_000.0), thickness_mm=40.0)
